@@ -17,6 +17,8 @@ both       the command topic                   driving: Twist or TwistStamped, a
 publishes  ``…/set_joint_positions``           sliders, if joint_state_publisher runs
 subscribes ``~/introspection_data/…`` of its   states: commanded joint velocities
            manager
+subscribes LaserScan, PointCloud2, Image,      what pages show of sensors: subscribed only while a
+           CompressedImage, Range, contacts    page shows the topic
 subscribes ``/tf``, ``/tf_static``, ``/clock``,
            ``/diagnostics``, ``~/activity`` of
            managers, ``~/world`` of simulators

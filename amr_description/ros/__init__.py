@@ -32,6 +32,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``messages.py``           stamps, poses and velocities ↔ messages
 ``message_types.py``      classes of messages, services and actions by their names
 ``cdr.py``                serialized messages, read without making messages of them
+``cdr_sensors.py``        … those of sensors, whose arrays are not copied
 ``cdr_template.py``       … and made without making messages
 ========================= =========================================================================
 """

@@ -9,6 +9,7 @@ pictures a second needs of a topic of 1 kHz only the latest message; DDS drops t
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
@@ -18,7 +19,27 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-from amr_description.ros.rclpy_internals import clock_subscription, take_message
+from amr_description.ros.rclpy_internals import (
+    clock_subscription,
+    take_message,
+    take_numbered,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class NumberedMessage:
+    """
+    The bytes of a message.
+
+    Attributes:
+        data: They.
+        received: The system time when DDS received it, ns.
+        number: Its number among all that its publisher has sent; None: the middleware counts none.
+    """
+
+    data: bytes
+    received: int
+    number: int | None
 
 
 class PolledTopic[Sample]:
@@ -74,6 +95,14 @@ class PolledTopic[Sample]:
                 return None
             with suppress(ValueError):
                 return self._read(data)
+
+    def take_numbered(self) -> NumberedMessage | None:
+        """Return the next message as it came, as :meth:`take` does a sample of it."""
+        try:
+            taken = take_numbered(self._subscription)
+        except InvalidHandle:
+            return None
+        return None if taken is None else NumberedMessage(*taken)
 
     def destroy(self) -> None:
         """Unsubscribe."""

@@ -46,6 +46,7 @@ __all__ = [
     'share_clock',
     'SubscriptionWaiter',
     'take_message',
+    'take_numbered',
     'take_received',
     'take_with_info',
     'UnknownROSArgsError',
@@ -125,6 +126,26 @@ def take_received(subscription: Subscription) -> tuple[bytes, int] | None:
     """
     taken = take_with_info(subscription)
     return None if taken is None else (taken[0], taken[1]['received_timestamp'])
+
+
+def take_numbered(subscription: Subscription) -> tuple[bytes, int, int | None] | None:
+    """
+    Take the next message of a raw subscription that no executor serves, with its number.
+
+    Returns:
+        The bytes of the message, the system time when DDS received it, ns, and its number among
+        those of its publisher, as far as the middleware counts them; None: none came.
+
+    Raises:
+        InvalidHandle: The subscription was destroyed.
+    """
+    handle = subscription.handle
+    with handle:
+        taken = handle.take_message(subscription.msg_type, True)
+    if taken is None:
+        return None
+    data, info = taken
+    return data, info['received_timestamp'], info.get('publication_sequence_number')
 
 
 def take_message(subscription: Subscription) -> Any | None:

@@ -8,9 +8,12 @@ The server of the browser page, without ROS; the only package that imports webso
 ``backend.py``      :class:`Backend`: what the server needs to know about the robots
 ``sessions.py``     the connected pages, and what becomes of their messages
 ``drive_lock.py``   which page drives which robot, and until when
-``protocol.py``     messages to pages; with ``requests`` and ``states``, ``web/src/protocol.ts``
+``protocol.py``     messages to pages, as in ``web/src/protocol.ts``
 ``requests.py``     messages from pages, validated
 ``states.py``       the binary frames: everything that moves
+``samples.py``      … and what a sensor has measured
+``pictures.py``     pictures of cameras, made small
+``clouds.py``       point clouds, thinned
 ``http.py``         plain HTTP: the files of the page, meshes, security headers
 ``access.py``       which requests are answered: Host, Origin, token
 ``graph.py``        names and types of a ROS graph -> robots and simulators

@@ -8,6 +8,7 @@ from typing import Protocol
 
 from amr_description.viewer.protocol import ServerMessage
 from amr_description.viewer.requests import Part, Request
+from amr_description.viewer.samples import Sample
 
 
 class Backend(Protocol):
@@ -24,11 +25,12 @@ class Backend(Protocol):
     def close(self) -> None:
         """The last page has disconnected: stop."""
 
-    def watch(self, parts: AbstractSet[Part]) -> None:
+    def watch(self, parts: AbstractSet[Part], topics: AbstractSet[str]) -> None:
         """
         Collect these parts of states, too, for all robots, and no other part of this kind.
 
-        None is collected at first. A part that is not collected is not known, NaN.
+        None is collected at first. A part that is not collected is not known, NaN. And subscribe
+        to these topics of sensors, of those that there are, and to no others.
         """
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
@@ -36,6 +38,15 @@ class Backend(Protocol):
         Return what is new since the last call: messages, then a state, None if nothing moved.
 
         The layout of a state is among the messages of the same call or of an earlier one.
+        """
+
+    def take_samples(self, wanted: AbstractSet[str]) -> Sequence[Sample]:
+        """
+        Return the new samples of sensors since the last call, at most one a topic.
+
+        Args:
+            wanted: Of the topics that are watched, those of which a page can take a sample now. Of
+                others none need be made.
         """
 
     def robots(self) -> Sequence[str]:

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Finds the robots and simulators of a ROS graph, and what each of their topics means.
+Finds the robots, simulators and sensors of a ROS graph, and what each of their topics means.
 
 Pure: names and types in, names out. Every namespace with a ``robot_description`` is a robot. A
 name belongs to the robot with the longest namespace that contains it.
@@ -9,9 +9,10 @@ name belongs to the robot with the longest namespace that contains it.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from amr_description.viewer.joint_groups import ACTIONS, is_joint_command, POSITIONS, TRAJECTORY
-from amr_description.viewer.protocol import Command
+from amr_description.viewer.protocol import Command, SensorInfo
 
 STRING = 'std_msgs/msg/String'
 TWISTS = ('geometry_msgs/msg/TwistStamped', 'geometry_msgs/msg/Twist')
@@ -25,7 +26,26 @@ ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 STATISTICS_VALUES = 'pal_statistics_msgs/msg/StatisticsValues'
 LIST_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
 SET_SIMULATION_STATE = 'simulation_interfaces/srv/SetSimulationState'
+LASER_SCAN = 'sensor_msgs/msg/LaserScan'
+CLOUD = 'sensor_msgs/msg/PointCloud2'
+IMAGE = 'sensor_msgs/msg/Image'
+COMPRESSED_IMAGE = 'sensor_msgs/msg/CompressedImage'
+RANGE = 'sensor_msgs/msg/Range'
+GZ_CONTACTS = 'ros_gz_interfaces/msg/Contacts'
+CLASSIC_CONTACTS = 'gazebo_msgs/msg/ContactsState'
+SENSORS: Mapping[str, Literal['scan', 'cloud', 'picture', 'range', 'contacts']] = {
+    LASER_SCAN: 'scan',
+    CLOUD: 'cloud',
+    IMAGE: 'picture',
+    COMPRESSED_IMAGE: 'picture',
+    RANGE: 'range',
+    GZ_CONTACTS: 'contacts',
+    CLASSIC_CONTACTS: 'contacts',
+}
+"""Type of a topic -> how a page shows it."""
 
+_COMPRESSED = '/compressed'
+"""What image_transport appends to the topic of the same pictures as JPEG or PNG."""
 _GOALS = '/_action/send_goal'
 
 type NamesAndTypes = Mapping[str, Iterable[str]]
@@ -82,6 +102,7 @@ class DiscoveredGraph:
     simulators: tuple[FoundSimulator, ...] = ()
     tf_namespaces: tuple[str, ...] = ()
     """Namespaces with a TF of their own, such as ``/robot1`` of ``/robot1/tf``."""
+    sensors: tuple[SensorInfo, ...] = ()
 
 
 def discover(names: GraphNames, described: Iterable[str] = ()) -> DiscoveredGraph:
@@ -103,6 +124,7 @@ def discover(names: GraphNames, described: Iterable[str] = ()) -> DiscoveredGrap
         tuple(_robot(names, each, lambda name: robot_of(name, ids)) for each in sorted(ids)),
         tuple(_simulators(names)),
         _tf_namespaces(names),
+        tuple(_sensors(names, ids)),
     )
 
 
@@ -199,6 +221,34 @@ def _simulators(names: GraphNames) -> Iterator[FoundSimulator]:
             node = service.rpartition('/')[0]
             services = frozenset(name for name in names.services if name.startswith(f'{node}/'))
             yield FoundSimulator(node, names.if_published(f'{node}/world', MARKERS), services)
+
+
+def _sensors(names: GraphNames, ids: Iterable[str]) -> Iterator[SensorInfo]:
+    """Yield the topics of sensors of robots that are published, each picture once."""
+    for topic, types in sorted(names.published.items()):
+        message = next((each for each in types if each in SENSORS), None)
+        robot = robot_of(topic, ids)
+        if message is None or robot is None or _is_shown_otherwise(names, topic, message):
+            continue
+        yield SensorInfo(topic, robot, SENSORS[message], message)
+
+
+def _is_shown_otherwise(names: GraphNames, topic: str, message: str) -> bool:
+    """
+    Whether the same pictures come by a better topic.
+
+    A compressed one is better, but for depths: image_transport offers ``…/compressed`` of those,
+    too, and publishes nothing there. ``…/compressedDepth`` is no picture that a browser knows.
+    """
+    if message == COMPRESSED_IMAGE:
+        raw = topic.removesuffix(_COMPRESSED)
+        return (
+            not topic.endswith(_COMPRESSED)
+            and topic.endswith('compressedDepth')
+            or ('depth' in raw and names.if_published(raw, IMAGE) is not None)
+        )
+    is_compressed = names.if_published(f'{topic}{_COMPRESSED}', COMPRESSED_IMAGE) is not None
+    return message == IMAGE and 'depth' not in topic and is_compressed
 
 
 def _tf_namespaces(names: GraphNames) -> tuple[str, ...]:

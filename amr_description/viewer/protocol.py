@@ -5,7 +5,7 @@ Messages to pages: this side of ``web/src/protocol.ts``, which documents them.
 
 A message is a frozen dataclass with the name and the fields that it has there; :func:`encode`
 returns its text frame. Messages from pages are in ``requests.py``, binary states in
-``states.py``.
+``states.py``, binary samples of sensors, whose heads are here, in ``samples.py``.
 """
 
 from collections.abc import Mapping
@@ -67,13 +67,24 @@ class SimulatorInfo:
 
 
 @dataclass(frozen=True, slots=True)
+class SensorInfo:
+    """A topic of a sensor, the robot that it belongs to, and the type of its messages."""
+
+    topic: str
+    robot: str
+    kind: Literal['scan', 'cloud', 'picture', 'range', 'contacts']
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
 class Graph:
-    """The robots and simulators of the ROS graph."""
+    """The robots, simulators and sensors of the ROS graph."""
 
     type: ClassVar[str] = 'graph'
     robots: tuple[RobotInfo, ...]
     simulators: tuple[SimulatorInfo, ...]
     hint: str | None
+    sensors: tuple[SensorInfo, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,6 +272,97 @@ class Notice:
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where a sample is from: topic, frame, time of its stamp (s), messages per second."""
+
+    topic: str
+    frame: str
+    stamp: float
+    rate: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Scan:
+    """The head of a LaserScan, rad and m; float32 of the ranges follow."""
+
+    type: ClassVar[str] = 'scan'
+    origin: Origin
+    angle_min: float
+    angle_increment: float
+    range_min: float | None
+    range_max: float | None
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Cloud:
+    """The head of a PointCloud2; positions and colours of some of its ``count`` points follow."""
+
+    type: ClassVar[str] = 'cloud'
+    origin: Origin
+    count: int
+    colouring: Literal['rgb', 'intensity', 'none']
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """The head of a picture; the file follows. ``low``, ``high``: of depths, m."""
+
+    type: ClassVar[str] = 'picture'
+    origin: Origin
+    format: Literal['image/jpeg', 'image/png']
+    encoding: str
+    width: int
+    height: int
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Distance:
+    """The head of a Range, rad and m; a float32 follows, the distance."""
+
+    type: ClassVar[str] = 'range'
+    origin: Origin
+    field_of_view: float | None
+    min_range: float | None
+    max_range: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactInfo:
+    """Two shapes that touch, in ``points`` places, and the force on the first, N."""
+
+    first: str
+    second: str
+    points: int
+    force: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Contacts:
+    """The head of contacts; 6 float32 a place follow: the point, m, and the normal."""
+
+    type: ClassVar[str] = 'contacts'
+    origin: Origin
+    contacts: tuple[ContactInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unreadable:
+    """In place of a sample: why the last message cannot be shown."""
+
+    type: ClassVar[str] = 'unreadable'
+    origin: Origin
+    text: str
+
+
+type Head = Scan | Cloud | Picture | Distance | Contacts | Unreadable
+"""The head of a sample of a sensor."""
+
 type ServerMessage = (
     Hello
     | Graph
@@ -277,7 +379,7 @@ type ServerMessage = (
 )
 
 
-def encode(message: ServerMessage) -> str:
+def encode(message: ServerMessage | Head) -> str:
     """Return the text frame of a message; NaN and infinity become null."""
     fields = {'type': message.type, **asdict(message)}
     try:

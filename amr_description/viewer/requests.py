@@ -56,10 +56,15 @@ class SetJoints:
 
 @dataclass(frozen=True, slots=True)
 class Watch:
-    """The parts of a state, beyond those that every state has, that the page shows from now on."""
+    """
+    What the page shows from now on of what is collected on demand.
+
+    ``parts``: of the states, beyond those that every state has; ``topics``: of sensors.
+    """
 
     types: ClassVar[tuple[str, ...]] = ('watch',)
     parts: tuple[Part, ...]
+    topics: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

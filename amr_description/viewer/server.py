@@ -237,6 +237,8 @@ class Server:
                 self._publish_message(message)
             if state is not None:
                 self._pages.send_state(state)
+            if self._router.topics:
+                self._pages.send_samples(self._backend.take_samples(self._pages.wanted))
         except Exception as error:
             self._log_error(f'no more states are sent: {type(error).__name__}: {error}')
             return

@@ -5,8 +5,9 @@ The connected pages, and what becomes of their messages; all on the server's thr
 
 Nothing waits for a page: a frame that is sent goes to the write buffer of its connection. A page
 gets no state while its buffer holds anything, so the states that it gets are never old (the
-system's own send buffer is kept small, see ``server``). It is disconnected when its buffer grows
-too large, and by websockets when it does not answer pings.
+system's own send buffer is kept small, see ``server``). Nor does it get a sample of a sensor: the
+newest of each topic waits for it, and replaces the one that waited before. It is disconnected when
+its buffer grows too large, and by websockets when it does not answer pings.
 """
 
 import asyncio
@@ -28,6 +29,7 @@ from amr_description.viewer.requests import (
     Stop,
     Watch,
 )
+from amr_description.viewer.samples import Sample
 
 MOST_PAGES = 32
 _LARGEST_BUFFER = 64 * 1024 * 1024
@@ -48,6 +50,10 @@ class Page:
         """Requests in progress."""
         self.watched: frozenset[Part] = frozenset()
         """The parts of a state that it shows beyond those that every state has."""
+        self.topics: frozenset[str] = frozenset()
+        """The topics of sensors that it shows."""
+        self.waiting: dict[str, bytes] = {}
+        """The newest sample of each that was not sent yet."""
 
     def send_message(self, message: ServerMessage) -> None:
         """Send a text frame."""
@@ -58,6 +64,11 @@ class Page:
         broadcast([self.connection], frame)
         if self.buffered > _LARGEST_BUFFER:
             self.connection.transport.abort()
+
+    def send_samples(self) -> None:
+        """Send what waits, as long as the write buffer is empty."""
+        while self.waiting and not self.buffered:
+            self.send(self.waiting.pop(next(iter(self.waiting))))
 
     @property
     def buffered(self) -> int:
@@ -73,6 +84,8 @@ class Pages:
         self._count = 0
         self._latched: dict[tuple[str, str], str] = {}
         """(type of message, subject) -> text frame."""
+        self._samples: dict[str, bytes] = {}
+        """The latest of each topic that a page shows, for one that comes to show it."""
 
     def __len__(self) -> int:
         return len(self._pages)
@@ -86,6 +99,17 @@ class Pages:
     def watched(self) -> frozenset[Part]:
         """The parts that any page shows."""
         return frozenset().union(*(page.watched for page in self._pages.values()))
+
+    @property
+    def topics(self) -> frozenset[str]:
+        """The topics of sensors that any page shows."""
+        return frozenset().union(*(page.topics for page in self._pages.values()))
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """Those of which a page has had the last sample."""
+        pages = self._pages.values()
+        return frozenset().union(*(page.topics - page.waiting.keys() for page in pages))
 
     def next_name(self) -> str:
         """Return the name of the next page."""
@@ -136,6 +160,29 @@ class Pages:
         """Send a state to all pages with an empty write buffer."""
         broadcast([page.connection for page in self._pages.values() if not page.buffered], state)
 
+    def show(self, page: Page, topics: frozenset[str]) -> None:
+        """Take note of what a page shows; it gets the latest samples of what it did not show."""
+        known = {topic: each for topic, each in self._samples.items() if topic in topics}
+        new = {topic: each for topic, each in known.items() if topic not in page.topics}
+        waiting = {topic: each for topic, each in page.waiting.items() if topic in topics}
+        page.topics, page.waiting = topics, waiting | new
+        self.forget_samples()
+
+    def forget_samples(self) -> None:
+        """Drop the samples of topics that no page shows any more."""
+        topics = self.topics
+        self._samples = {topic: each for topic, each in self._samples.items() if topic in topics}
+
+    def send_samples(self, samples: Iterable[Sample]) -> None:
+        """Send new samples, and those that wait, to the pages that show them and can take them."""
+        for topic, frame in ((each.topic, each.frame) for each in samples):
+            self._samples[topic] = frame
+            for page in self._pages.values():
+                if topic in page.topics:
+                    page.waiting[topic] = frame
+        for page in [*self._pages.values()]:
+            page.send_samples()
+
     def _send(self, frame: str) -> None:
         for page in [*self._pages.values()]:
             page.send(frame)
@@ -155,8 +202,8 @@ class MessageRouter:
         self._lock = DriveLock()
         self._expiry: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
-        self._watched: frozenset[Part] = frozenset()
-        """The parts that the backend collects."""
+        self._watched: tuple[frozenset[Part], frozenset[str]] = (frozenset(), frozenset())
+        """The parts, and the topics of sensors, that the backend collects."""
         self._noticed: dict[tuple[str, str], float] = {}
         """(page, text) -> when it was sent last."""
 
@@ -173,6 +220,7 @@ class MessageRouter:
                 )
             case Watch():
                 page.watched = frozenset(message.parts)
+                self._pages.show(page, frozenset(message.topics))
                 self._watch()
             case _:
                 self._start_request(page, message)
@@ -180,6 +228,7 @@ class MessageRouter:
     def disconnect(self, page: Page) -> None:
         """Stop the robots of a page that has disconnected; it watches nothing any more."""
         self._command_zero(self._lock.release_all(page.name))
+        self._pages.forget_samples()
         self._watch()
         self._noticed = {key: at for key, at in self._noticed.items() if key[0] != page.name}
 
@@ -190,9 +239,14 @@ class MessageRouter:
 
     def _watch(self) -> None:
         """Have the backend collect what the pages show."""
-        if (parts := self._pages.watched) != self._watched:
-            self._watched = parts
-            self._backend.watch(parts)
+        if (watched := (self._pages.watched, self._pages.topics)) != self._watched:
+            self._watched = watched
+            self._backend.watch(*watched)
+
+    @property
+    def topics(self) -> frozenset[str]:
+        """The topics of sensors that pages show."""
+        return self._watched[1]
 
     def _drive(self, page: Page, message: Drive) -> None:
         robot, now = message.robot, asyncio.get_running_loop().time()

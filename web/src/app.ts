@@ -20,6 +20,8 @@ export interface Panel {
   readonly element: HTMLElement;
   /** What it shows of the states, of those parts that come only on demand. */
   readonly watches?: readonly Part[];
+  /** The topics of sensors that it shows. */
+  readonly topics?: readonly string[];
   /** Show the numbers of a state; called ten times a second. */
   pulse?(state: State): void;
 }

@@ -43,7 +43,7 @@ export class Connection {
   link: Link = { state: 'connecting' };
   onLink: (link: Link) => void = () => {};
   onMessage: (message: ServerMessage) => void = () => {};
-  onState: (buffer: ArrayBuffer) => void = () => {};
+  onBinary: (buffer: ArrayBuffer) => void = () => {};
 
   private socket: Socket | null = null;
   private attempt = 0;
@@ -101,7 +101,7 @@ export class Connection {
 
   private receive(data: unknown): void {
     if (data instanceof ArrayBuffer) {
-      this.onState(data);
+      this.onBinary(data);
     } else if (typeof data === 'string') {
       const message = JSON.parse(data) as ServerMessage;
       if (message.type !== 'reply' || !this.answer(message)) {

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /** `window.amr`: the page in numbers, for tests in a real browser and for the curious. */
 import type { App } from './app';
+import type { SensorsPanel } from './panels/sensors';
 import type { Recorder } from './plots/recorder';
 import type { Scene } from './scene/scene';
+import type { SensorNumbers } from './scene/sensors';
 import type { StateStream } from './stream';
 import type { View } from './view';
 
@@ -12,6 +14,7 @@ interface Parts {
   stream: StateStream;
   recorder: Recorder;
   view: View;
+  sensors: SensorsPanel;
 }
 
 export interface SceneNumbers {
@@ -19,6 +22,7 @@ export interface SceneNumbers {
   triangles: number; // of the last one
   extent: number[]; // of the robots near the first one, m: least x, y, z, then greatest
   trails: Record<string, [truth: number, odometry: number]>; // points, by robot
+  sensors: Record<string, SensorNumbers>; // by topic
 }
 
 export interface Inspection {
@@ -31,6 +35,8 @@ export interface Inspection {
   skipped: number; // left out by the node
   stale: number; // of another layout
   bad: number;
+  sensed: number; // samples of sensors that came
+  pictures: Record<string, number>; // drawn, by topic
   time: number | null; // s, of the latest state
   age: number | null; // ms since it came
   samples: number; // kept for the plots
@@ -44,7 +50,7 @@ declare global {
   }
 }
 
-export function inspect({ app, stream, recorder, view }: Parts): void {
+export function inspect({ app, stream, recorder, view, sensors }: Parts): void {
   const { store, pilot } = app;
   window.amr = {
     get now(): Inspection {
@@ -58,6 +64,7 @@ export function inspect({ app, stream, recorder, view }: Parts): void {
         time: stream.latest?.time ?? null,
         age: stream.latest === null ? null : performance.now() - stream.arrivedAt,
         samples: recorder.length,
+        pictures: sensors.drawn,
         notices: store.notices.length,
         scene: numbersOf(view.scene),
       };
@@ -66,5 +73,12 @@ export function inspect({ app, stream, recorder, view }: Parts): void {
 }
 
 function numbersOf(scene: Scene | null): SceneNumbers | null {
-  return scene === null ? null : { ...scene.stats(), extent: scene.extent(), trails: scene.trailSizes() };
+  return scene === null
+    ? null
+    : {
+        ...scene.stats(),
+        extent: scene.extent(),
+        trails: scene.trailSizes(),
+        sensors: scene.sensorNumbers(),
+      };
 }

@@ -16,9 +16,12 @@ import { FramesPanel } from './panels/frames';
 import { HealthPanel } from './panels/health';
 import { JointsPanel } from './panels/joints';
 import { ModelPanel } from './panels/model';
+import { SensorsPanel } from './panels/sensors';
 import { SimulationPanel } from './panels/simulation';
 import { PlotsPanel } from './plots/panel';
 import { Recorder } from './plots/recorder';
+import { isSample } from './samples';
+import { Sensing } from './sensors/sensing';
 import { arrange } from './shell';
 import { StateStream } from './stream';
 import { Store } from './store';
@@ -42,17 +45,23 @@ const pilot = new Pilot({
 const app: App = { store, connection, pilot };
 const recorder = new Recorder((robot) => store.turningJoints(robot));
 const stream = new StateStream(store);
-const watcher = new Watcher((message) => connection.send(message));
+const watcher = new Watcher(
+  (message) => connection.send(message),
+  () => document.visibilityState === 'visible',
+);
+const sensing = new Sensing(store);
 
-const view = new View(app);
+const view = new View(app, sensing);
 const drive = new DrivePanel(app);
 const plots = new PlotsPanel(app, recorder);
 const model = new ModelPanel(app);
 const health = new HealthPanel(app);
+const sensors = new SensorsPanel(app, sensing);
 const tabs = new Tabs('tab');
 for (const panel of [
   model,
   new JointsPanel(app),
+  sensors,
   new FramesPanel(app, () => view.scene?.frames() ?? []),
   new SimulationPanel(app),
   new ControlPanel(app),
@@ -100,7 +109,14 @@ connection.onMessage = (message) => {
   }
   store.take(message);
 };
-connection.onState = (buffer) => {
+connection.onBinary = (buffer) => {
+  if (isSample(buffer)) {
+    const sample = stream.takeSample(buffer);
+    if (sample !== null) {
+      view.applySample(sample);
+    }
+    return;
+  }
   pilot.keepUp();
   const state = stream.take(buffer);
   if (state !== null) {
@@ -108,8 +124,15 @@ connection.onState = (buffer) => {
     recorder.record(state, store.simulation?.real_factor ?? null);
   }
 };
+
+/** Tell the node what can be seen: at once when it is nothing any more, as timers sleep then. */
+function watch(): void {
+  watcher.show([...tabs.watches, ...view.watches], [...tabs.topics, ...view.topics]);
+}
+
+document.addEventListener('visibilitychange', watch);
 setInterval(() => {
-  watcher.show([...tabs.watches, ...view.watches]);
+  watch();
   const state = stream.fresh();
   if (state !== null) {
     for (const part of [header, drive, tabs, shell]) {
@@ -118,5 +141,5 @@ setInterval(() => {
   }
 }, PULSE);
 
-inspect({ app, stream, recorder, view });
+inspect({ app, stream, recorder, view, sensors });
 connection.open();

@@ -3,8 +3,8 @@
 /**
  * The messages between the page and the node `viewer`, over one WebSocket at `/ws`.
  *
- * Text frames are JSON, one message each, with its `type`. The only binary frames are states, from
- * the node to the page; see the end of this file. Lengths are in m, angles in rad, times in s,
+ * Text frames are JSON, one message each, with its `type`. Binary frames, from the node to the page
+ * alone, are states and samples of sensors; see the end of this file. Lengths are in m, angles in rad, times in s,
  * frames and axes as in REP 103 (x ahead, y left, z up), quaternions in the order x, y, z, w.
  *
  * The node's side is in amr_description/viewer/protocol.py; a test compares the two.
@@ -28,12 +28,21 @@ export interface Hello {
   drive_timeout: number; // s after the last `drive` until the node stops the robot by itself
 }
 
-/** The robots and simulators of the ROS graph. Sent on every change. */
+/** The robots, simulators and sensors of the ROS graph. Sent on every change. */
 export interface Graph {
   type: 'graph';
   robots: RobotInfo[];
   simulators: SimulatorInfo[];
   hint: string | null; // what to do when there is nothing to see: "nothing publishes /robot_description; start …"
+  sensors: SensorInfo[];
+}
+
+/** A topic of a sensor. Pictures that come raw and compressed are there once. */
+export interface SensorInfo {
+  topic: string;
+  robot: string; // whose namespace holds the topic
+  kind: 'scan' | 'cloud' | 'picture' | 'range' | 'contacts';
+  message: string; // its type: "sensor_msgs/msg/LaserScan"
 }
 
 export interface RobotInfo {
@@ -201,13 +210,14 @@ export interface SetJoints {
 export type Part = 'wheels';
 
 /**
- * The parts, beyond those that every state has, that this page shows from now on; none for a new
- * connection. What no page shows is not known, NaN, in the states of all pages: a simulator need
- * not work it out. There is no reply.
+ * The parts, beyond those that every state has, and the topics of sensors that this page shows from
+ * now on; none for a new connection. What no page shows is not known, NaN, in the states of all
+ * pages, and not subscribed: a simulator need not work it out. There is no reply.
  */
 export interface Watch {
   type: 'watch';
   parts: Part[]; // any other than those of Part is refused
+  topics?: string[]; // of SensorInfo; one that is not there may come later
 }
 
 export type Request =
@@ -250,3 +260,96 @@ export const JOINT_FLOATS = 3;
 export const MOTION_FLOATS = 10;
 export const COMMAND_FLOATS = 3;
 export const WHEEL_FLOATS = 4;
+
+// ---- node -> page: samples of sensors, binary ----------------------------------------------------
+
+/**
+ * What a sensor has measured, little-endian, for the pages that show its topic. A page that is slow
+ * gets the newest of each topic.
+ *
+ *     0  u8   2, the kind of the frame
+ *     1  u8   0
+ *     2  u16  bytes of the head, a multiple of 4
+ *     4  …    the head: JSON, one of the types below, filled up with spaces
+ *     …       what the head says
+ */
+export const SAMPLE_KIND = 2;
+export const HEAD_AT = 4;
+export const PLACE_FLOATS = 6; // of a place of contact
+
+/** Of every sample. */
+export interface Origin {
+  topic: string;
+  frame: string; // of TF; of a robot with a TF of its own, without its namespace
+  stamp: number; // s
+  rate: number | null; // messages per second of the topic, those that were left out, too
+}
+
+/** f32 of the ranges, m, follow; those that are none are not finite, or out of bounds. */
+export interface Scan {
+  type: 'scan';
+  origin: Origin;
+  angle_min: number;
+  angle_increment: number;
+  range_min: number | null; // null: no bound
+  range_max: number | null;
+  count: number; // ranges of the message; fewer may follow, evenly thinned
+}
+
+/**
+ * For each point x, y, z follow, f32, all points first; then their colours, three u8, if they are
+ * 'rgb', or an f32, if they are 'intensity'.
+ */
+export interface Cloud {
+  type: 'cloud';
+  origin: Origin;
+  count: number; // points of the message; fewer may follow
+  colouring: 'rgb' | 'intensity' | 'none';
+  low: number | null; // the least intensity
+  high: number | null;
+}
+
+/** The file of a picture follows. */
+export interface Picture {
+  type: 'picture';
+  origin: Origin;
+  format: 'image/jpeg' | 'image/png';
+  encoding: string; // of the message: rgb8, 32FC1 …
+  width: number; // of the message; the file's may be smaller
+  height: number;
+  low: number | null; // of a picture of depths, m: the nearest is the lightest, black is none
+  high: number | null;
+}
+
+/** An f32 follows: the distance, m; -inf: too near, inf: nothing there (REP 117). */
+export interface Distance {
+  type: 'range';
+  origin: Origin;
+  field_of_view: number | null;
+  min_range: number | null;
+  max_range: number | null;
+}
+
+/** Two shapes that touch. */
+export interface ContactInfo {
+  first: string;
+  second: string;
+  points: number; // places in which they do
+  force: number | null; // N, of all of them together
+}
+
+/** For each place x, y, z, and the normal, follow, f32. */
+export interface Contacts {
+  type: 'contacts';
+  origin: Origin;
+  contacts: ContactInfo[];
+}
+
+/** In place of a sample: why the last message cannot be shown. */
+export interface Unreadable {
+  type: 'unreadable';
+  origin: Origin;
+  text: string;
+}
+
+export type Head = Scan | Cloud | Picture | Distance | Contacts | Unreadable;

@@ -199,7 +199,7 @@ export class Store {
   private begin(hello: Hello): void {
     const before = this.hello;
     this.hello = hello;
-    this.setGraph({ type: 'graph', robots: [], simulators: [], hint: null });
+    this.setGraph({ type: 'graph', robots: [], simulators: [], hint: null, sensors: [] });
     this.layout = null;
     this.tell('layout');
     this.tell('hello');

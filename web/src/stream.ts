@@ -1,12 +1,13 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The states as they come: decoded, counted, and gaps between them seen. */
+/** The binary frames as they come: decoded, counted, and gaps between the states seen. */
+import { decodeSample, type Sample } from './samples';
 import { BadState, decodeState, type State } from './state';
 import type { Store } from './store';
 
 export class StateStream {
-  /** How many states came, how many the node left out, how many were of no use here. */
-  readonly counts = { states: 0, skipped: 0, stale: 0, bad: 0 };
+  /** How many states came, how many the node left out, how many frames were of no use here. */
+  readonly counts = { states: 0, skipped: 0, stale: 0, bad: 0, sensed: 0 };
   latest: State | null = null;
   arrivedAt = Number.NaN; // ms, as performance.now()
   private isFresh = false;
@@ -18,7 +19,14 @@ export class StateStream {
     });
   }
 
-  /** Read a binary frame; null where it is not for what we know now. */
+  /** Read a sample of a sensor; null where it is none. */
+  takeSample(buffer: ArrayBuffer): Sample | null {
+    const sample = this.attempt(() => decodeSample(buffer));
+    this.counts.sensed += sample === null ? 0 : 1;
+    return sample;
+  }
+
+  /** Read a state; null where it is not for what we know now. */
   take(buffer: ArrayBuffer): State | null {
     const state = this.decode(buffer);
     if (state === null) {
@@ -43,10 +51,17 @@ export class StateStream {
 
   private decode(buffer: ArrayBuffer): State | null {
     const { layout } = this.store;
-    try {
+    return this.attempt(() => {
       const state = layout === null ? null : decodeState(buffer, layout);
       this.counts.stale += state === null ? 1 : 0;
       return state;
+    });
+  }
+
+  /** Decode a frame; null, and a notice, where it is none. */
+  private attempt<T>(decode: () => T): T | null {
+    try {
+      return decode();
     } catch (error) {
       if (!(error instanceof BadState)) {
         throw error;

@@ -106,6 +106,11 @@ export class Tabs {
     return (this.isVisible && this.active?.panel.watches) || [];
   }
 
+  /** The topics of sensors that can be seen now. */
+  get topics(): readonly string[] {
+    return (this.isVisible && this.active?.panel.topics) || [];
+  }
+
   pulse(state: State): void {
     if (this.isVisible) {
       this.active?.panel.pulse?.(state);

@@ -7,7 +7,9 @@ import { button, h, setText, toggle } from './dom';
 import type { Part } from './protocol';
 import type { State } from './state';
 import { recall, remember } from './remember';
+import type { Sample } from './samples';
 import { NoWebGL, Scene } from './scene/scene';
+import type { Sensing } from './sensors/sensing';
 import type { Theme } from './theme';
 
 const LAYERS = [
@@ -31,7 +33,10 @@ export class View {
   private readonly hint = h('div', { class: 'view-hint', hidden: true });
   private following = recall('follow') !== 'no';
 
-  constructor(private readonly app: App) {
+  constructor(
+    private readonly app: App,
+    private readonly sensing: Sensing,
+  ) {
     this.element = h('main', { class: 'view', id: 'view' }, this.canvas, this.words, this.hint);
     this.scene = this.makeScene();
     if (this.scene === null) {
@@ -46,6 +51,19 @@ export class View {
   /** What is shown of the parts that come only on demand. */
   get watches(): readonly Part[] {
     return this.scene?.shows('contacts') === true ? ['wheels'] : [];
+  }
+
+  /** The topics of sensors that are drawn. */
+  get topics(): readonly string[] {
+    return this.scene === null ? [] : this.sensing.inScene.map(({ topic }) => topic);
+  }
+
+  /** Show a sample. */
+  applySample(sample: Sample): void {
+    const info = this.sensing.take(sample);
+    if (info !== null && info.kind !== 'picture') {
+      this.scene?.takeSample(info, sample);
+    }
   }
 
   /** Show a state. */
@@ -86,6 +104,7 @@ export class View {
     });
     store.watch(['frame'], () => scene.setFixedFrame(store.fixedFrame));
     store.watch(['reset'], () => scene.clearTrails());
+    this.sensing.onChange = () => scene.retainSensors(new Set(this.sensing.latest.keys()));
     store.watch(['robot', 'graph'], () => this.follow(scene));
     store.onModel = (model) => {
       scene.setModel(model);

@@ -103,7 +103,7 @@ test('messages and states come apart', () => {
   const { outside, connection } = opened();
   const heard: string[] = [];
   connection.onMessage = (message) => heard.push(message.type);
-  connection.onState = (buffer) => heard.push(`${buffer.byteLength} bytes`);
+  connection.onBinary = (buffer) => heard.push(`${buffer.byteLength} bytes`);
   outside.socket.say({ type: 'notice', level: 'info', text: 'x' });
   outside.socket.say(new ArrayBuffer(16));
   assert.deepEqual(heard, ['notice', '16 bytes']);

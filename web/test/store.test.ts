@@ -17,7 +17,7 @@ function robot(id: string): RobotInfo {
 }
 
 function graph(...ids: string[]): Graph {
-  return { type: 'graph', robots: ids.map(robot), simulators: [], hint: null };
+  return { type: 'graph', robots: ids.map(robot), simulators: [], hint: null, sensors: [] };
 }
 
 function connected(...ids: string[]): Store {

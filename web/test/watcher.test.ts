@@ -6,13 +6,17 @@ import { Watcher } from '../src/watcher';
 
 class Node {
   isThere = true;
+  isSeen = true;
   heard: string[] = [];
-  readonly watcher = new Watcher(({ type, parts }) => {
-    if (this.isThere) {
-      this.heard.push([type, ...parts].join(' '));
-    }
-    return this.isThere;
-  });
+  readonly watcher = new Watcher(
+    ({ type, parts, topics = [] }) => {
+      if (this.isThere) {
+        this.heard.push([type, ...parts, ...topics].join(' '));
+      }
+      return this.isThere;
+    },
+    () => this.isSeen,
+  );
 }
 
 test('a page that shows nothing special says nothing', () => {
@@ -48,4 +52,23 @@ test('a new connection is told nothing when nothing is shown by then', () => {
   watcher.forget();
   watcher.show([]);
   assert.deepEqual(heard, ['watch wheels']);
+});
+
+test('sensors are told beside parts', () => {
+  const { watcher, heard } = new Node();
+  watcher.show([], ['/scan']);
+  watcher.show(['wheels'], ['/scan', '/image', '/scan']);
+  watcher.show([], []);
+  assert.deepEqual(heard, ['watch /scan', 'watch wheels /image /scan', 'watch']);
+});
+
+test('a page behind other tabs shows nothing until it comes back', () => {
+  const node = new Node();
+  node.watcher.show(['wheels'], ['/scan']);
+  node.isSeen = false;
+  node.watcher.show(['wheels'], ['/scan']);
+  node.watcher.show(['wheels'], ['/image']);
+  node.isSeen = true;
+  node.watcher.show(['wheels'], ['/scan']);
+  assert.deepEqual(node.heard, ['watch wheels /scan', 'watch', 'watch wheels /scan']);
 });

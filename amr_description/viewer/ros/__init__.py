@@ -10,6 +10,8 @@ The backend of the page's server for the robots of a ROS graph.
 ``joint_commands.py``   joints that pages move by controllers
 ``robot_topics.py``     what moves: transforms, joints, odometry, commands, wheels
 ``states.py``           … assembled into the binary states
+``sensors.py``          topics of sensors, subscribed while a page shows them
+``sensor_samples.py``   … converted for the page
 ``description.py``      a robot description for the page: joints, meshes, findings
 ``markers.py``          MarkerArray and /diagnostics, converted for the page
 ``service_clients.py``  services of simulators and controller managers

@@ -19,6 +19,7 @@ from amr_description.viewer.joint_groups import ControllerJoints, joint_groups, 
 from amr_description.viewer.protocol import (
     Graph,
     RobotInfo,
+    SensorInfo,
     ServerMessage,
     SimulationStatus,
     World,
@@ -35,6 +36,7 @@ from amr_description.viewer.ros.service_clients import (
     switch_controllers,
 )
 from amr_description.viewer.ros.states import StateAssembler
+from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server
 
 _REFRESH_PERIOD = 1.0
@@ -69,8 +71,9 @@ class GraphBackend(GraphObserver):
         self._session_count = 0
         self._session = 0
         """From the first page's connection to the last one's end; 0: no pages."""
-        self._watched: AbstractSet[Part] = frozenset()
+        self._watched: tuple[AbstractSet[Part], AbstractSet[str]] = (frozenset(), frozenset())
         self._infos: tuple[RobotInfo, ...] = ()
+        self._sensors: tuple[SensorInfo, ...] = ()
 
     # --- called by the server --------------------------------------------------------------------
 
@@ -88,9 +91,9 @@ class GraphBackend(GraphObserver):
         if self._refresher is not None:
             self._refresher.cancel()
 
-    def watch(self, parts: AbstractSet[Part]) -> None:
-        """Collect these parts of states, too, and no other part of this kind."""
-        self._watched = parts
+    def watch(self, parts: AbstractSet[Part], topics: AbstractSet[str]) -> None:
+        """Collect these parts of states, and hear these sensors, and nothing else of the kind."""
+        self._watched = parts, topics
         self._executor.create_task(self._set_watched)
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
@@ -101,6 +104,10 @@ class GraphBackend(GraphObserver):
             self._status_due = now + _STATUS_PERIOD
             messages = [*messages, *self._statuses()]
         return messages, state
+
+    def take_samples(self, wanted: AbstractSet[str]) -> Sequence[Sample]:
+        """Return new samples of these topics."""
+        return self._monitor.sensors.take(wanted)
 
     def robots(self) -> Sequence[str]:
         """Return the robots that take velocity commands."""
@@ -170,7 +177,7 @@ class GraphBackend(GraphObserver):
 
     def _set_watched(self) -> None:
         """Pass on what is watched at present, for the same reason."""
-        self._monitor.watch(self._watched)
+        self._monitor.watch(*self._watched)
 
     def _set_groups(self, connection: RobotConnection, groups: Sequence[ControllerJoints]) -> None:
         """Advertise what moves joints, unless the robot has gone in the meantime."""
@@ -188,7 +195,7 @@ class GraphBackend(GraphObserver):
         infos = tuple(each.info for each in connections.values())
         self.server.call(lambda: self._set_simulators(simulators))
         self.server.retain([*connections, *simulators])
-        self.server.call(lambda: self._publish_graph(infos))
+        self.server.call(lambda: self._publish_graph(infos, found.sensors))
         for name, each in connections.items():
             if each.found.manager:
                 self.controllers_changed(name)
@@ -223,10 +230,13 @@ class GraphBackend(GraphObserver):
             if name not in before:
                 self._start(self._refresh(simulator))
 
-    def _publish_graph(self, robots: tuple[RobotInfo, ...]) -> None:
-        self._infos = robots
+    def _publish_graph(
+        self, robots: tuple[RobotInfo, ...], sensors: tuple[SensorInfo, ...]
+    ) -> None:
+        self._infos, self._sensors = robots, sensors
         simulators = tuple(each.info for each in self._simulators.values())
-        self.server.publish_now('', Graph(robots, simulators, None if robots else self._hint()))
+        hint = None if robots else self._hint()
+        self.server.publish_now('', Graph(robots, simulators, hint, sensors))
 
     def _hint(self) -> str:
         return (
@@ -288,7 +298,7 @@ class GraphBackend(GraphObserver):
         before = simulator.info
         await simulator.refresh()
         if simulator.info != before:
-            self._publish_graph(self._infos)
+            self._publish_graph(self._infos, self._sensors)
 
     async def _refresh_periodically(self) -> None:
         while True:

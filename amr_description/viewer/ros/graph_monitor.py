@@ -29,6 +29,7 @@ from amr_description.viewer.graph import (
     JOINT_STATE,
     MARKERS,
     ODOMETRY,
+    SENSORS,
     STATISTICS_VALUES,
     STRING,
     TF,
@@ -38,6 +39,7 @@ from amr_description.viewer.joint_groups import POSITIONS, TRAJECTORY
 from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.robot import RobotConnection, WorldSubscription
 from amr_description.viewer.ros.robot_topics import TransformTopics
+from amr_description.viewer.ros.sensors import SensorFeeds
 from amr_description.viewer.ros.service_clients import (
     manager_service_types,
     ServiceClients,
@@ -54,6 +56,7 @@ _PUBLISHED_TYPES = {
     STATISTICS_VALUES,
     STRING,
     TF,
+    *SENSORS,
 }
 _SUBSCRIBED_TYPES = {JOINT_STATE, POSITIONS, TRAJECTORY, *TWISTS}
 _PERIOD = 0.5
@@ -91,6 +94,7 @@ class GraphMonitor:
         self.found = DiscoveredGraph()
         self.connections: Mapping[str, RobotConnection] = {}
         """By the id of the robot."""
+        self.sensors = SensorFeeds(node)
         self._node = node
         self._states = states
         self._services = services
@@ -119,9 +123,14 @@ class GraphMonitor:
         if self._timer is not None:
             self._poll()
 
-    def watch(self, parts: AbstractSet[Part]) -> None:
-        """Subscribe, of what is collected on demand, to these parts of all robots alone."""
+    def watch(self, parts: AbstractSet[Part], topics: AbstractSet[str]) -> None:
+        """Subscribe, of what is collected on demand, to these parts of all robots, and topics."""
         self._watched = parts
+        self.sensors.watch(topics)
+        self._watch_parts()
+
+    def _watch_parts(self) -> None:
+        parts = self._watched
         for connection in self.connections.values():
             connection.watch(parts)
 
@@ -156,7 +165,7 @@ class GraphMonitor:
             self._connect(found)
             self._update_sources()
             self.observer.graph_changed()
-        self.watch(self._watched)  # of new robots, and of those whose layout is known by now
+        self._watch_parts()  # of new robots, and of those whose layout is known by now
 
     def _forget_dead_clock(self) -> None:
         """Stamp no command with the time of a simulation that has ended: it would be too old."""
@@ -176,6 +185,7 @@ class GraphMonitor:
         for name, connection in connections.items():
             if connection.described is None and name in self._descriptions:
                 connection.set_description(self._descriptions[name])
+        self.sensors.find(found.sensors)
         self._connect_worlds({each.id: each.world for each in found.simulators if each.world})
         if has_other_frames and self._timer is not None:  # the frames of a robot never expire
             assert self._transforms is not None, 'a session is open'

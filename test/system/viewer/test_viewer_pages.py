@@ -19,6 +19,7 @@ from support.running_programs import PATIENCE
 
 from amr_description.errors import ViewerError
 from amr_description.viewer.protocol import Driver, Notice, TimeReset
+from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server, ServerSettings, STATIC
 
 LARGE = bytes(500_000)
@@ -32,6 +33,8 @@ class Backend:
         self.joints_are_moved = False
         self.new = ()
         self.frame = None
+        self.samples = []
+        self.wanted = []
 
     def open(self):
         self.calls.append('open')
@@ -39,8 +42,13 @@ class Backend:
     def close(self):
         self.calls.append('close')
 
-    def watch(self, parts):
-        self.calls.append(sorted(parts))
+    def watch(self, parts, topics):
+        self.calls.append([*sorted(parts), *sorted(topics)])
+
+    def take_samples(self, wanted):
+        self.wanted.append(wanted)
+        new, self.samples = self.samples, []
+        return [sample for sample in new if sample.topic in wanted]
 
     def take_state(self):
         new, self.new = self.new, ()
@@ -165,6 +173,90 @@ def test_the_backend_watches_what_any_page_shows(backend, server):
     with Page(server.url) as page:  # a new one shows nothing yet
         page.ask('play', 1, simulator='/s')
         assert backend.calls == ['open', ['wheels'], [], 'close', 'open']
+
+
+def test_sensors_that_two_pages_show_are_heard_until_neither_does(backend, server):
+    with Page(server.url) as first, Page(server.url) as second:
+        for number, (page, topics) in enumerate(
+            [(first, ['/scan']), (second, ['/scan', '/image']), (second, ['/scan']), (first, [])]
+        ):
+            page.say('watch', parts=[], topics=topics)
+            page.ask('play', number, simulator='/s')
+        assert backend.calls == ['open', ['/scan'], ['/image', '/scan'], ['/scan']]
+        second.close()
+        first.ask('play', 9, simulator='/s')
+        assert backend.calls[-1] == []
+
+
+def test_a_sample_goes_to_the_pages_that_show_it_and_to_one_that_comes_to(backend, server):
+    with Page(server.url) as first, Page(server.url) as second:
+        first.say('watch', parts=[], topics=['/scan'])
+        first.ask('play', 1, simulator='/s')
+        backend.samples = [Sample('/scan', b'a scan')]
+        first.wait(lambda: first.states == [b'a scan'])
+        second.say('watch', parts=[], topics=['/image', '/scan'])
+        second.wait(lambda: second.states == [b'a scan'])
+        second.say('watch', parts=[], topics=['/image'])
+        second.ask('play', 2, simulator='/s')
+        backend.samples = [Sample('/scan', b'two'), Sample('/image', b'one')]
+        second.wait(lambda: second.states == [b'a scan', b'one'])
+        first.wait(lambda: first.states == [b'a scan', b'two'])
+
+
+def test_without_pages_that_show_sensors_nobody_is_asked_for_samples(backend, server):
+    with Page(server.url) as page:
+        page.say('watch', parts=['wheels'])
+        backend.frame = bytes(16)
+        page.wait(lambda: len(page.states) > 10)
+    assert backend.wanted == []
+
+
+class Camera(Backend):
+    """Has a new picture whenever a page can take one."""
+
+    def __init__(self):
+        super().__init__()
+        self.count = 0
+
+    def take_samples(self, wanted):
+        self.wanted.append(wanted)
+        if '/image' not in wanted:
+            return []
+        self.count += 1
+        return [Sample('/image', self.count.to_bytes(4) + LARGE)]
+
+
+def test_a_page_that_does_not_read_makes_no_queue_of_pictures():
+    """One picture is on its way to it, one waits, the newest; others get all."""
+    camera = Camera()
+    with serving(camera) as server, deaf(server.url) as late, Page(server.url) as page:
+        late.sendall(masked(b'{"type":"watch","parts":[],"topics":["/image"]}'))
+        page.wait(lambda: len(camera.calls) > 1)
+        page.say('watch', parts=[], topics=['/image'])
+        page.wait(lambda: len(page.states) > 40)  # 20 MB
+        pages = {each.name: each for each in server._pages._pages.values()}
+        behind = pages['page 1']
+        assert 0 < behind.buffered <= len(LARGE) + 32 * 1024
+        assert len(behind.waiting) == 1
+        assert int.from_bytes(behind.waiting['/image'][:4]) > 30
+        assert len(server._pages._samples) == 1
+    assert server.logged.empty()
+
+
+def test_nothing_is_made_for_pages_that_are_all_slow():
+    camera = Camera()
+    with serving(camera) as server, deaf(server.url) as late, Page(server.url) as page:
+        late.sendall(masked(b'{"type":"watch","parts":[],"topics":["/image"]}'))
+        page.wait(lambda: len(camera.wanted) > 20)
+        made = camera.count
+        page.wait(lambda: len(camera.wanted) > 60)
+        assert camera.count == made
+        assert camera.wanted[-1] == frozenset()
+
+
+def masked(text):
+    """A text frame of a page, of at most 125 bytes, masked by zeros."""
+    return bytes([0x81, 0x80 | len(text), 0, 0, 0, 0]) + text
 
 
 def test_a_page_that_watches_what_there_is_not_is_refused_in_one_line(backend, server):

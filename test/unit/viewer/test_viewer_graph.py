@@ -8,13 +8,18 @@ import pytest
 
 from amr_description.viewer.graph import (
     ACTIVITY,
+    CLOUD,
+    COMPRESSED_IMAGE,
     discover,
     DYNAMIC_JOINT_STATE,
     GraphNames,
+    IMAGE,
     JOINT_STATE,
+    LASER_SCAN,
     LIST_CONTROLLERS,
     MARKERS,
     ODOMETRY,
+    RANGE,
     robot_of,
     SET_SIMULATION_STATE,
     STATISTICS_VALUES,
@@ -49,6 +54,34 @@ def names(*places, published=None, subscribed=None, services=None):
     for place in places:
         parts = [a | b for a, b in zip(parts, robot(place), strict=True)]
     return GraphNames(*parts)
+
+
+def shown(*published):
+    """Topics of sensors, by their robots."""
+    there = {topic: [message] for topic, message in published}
+    described = {'/robot_description': [STRING], '/r1/robot_description': [STRING]}
+    found = discover(GraphNames({**described, **there})).sensors
+    return {(each.topic, each.robot, each.kind) for each in found}
+
+
+def test_sensors_belong_to_the_robot_of_their_namespace():
+    assert shown(('/scan', LASER_SCAN), ('/r1/camera/points', CLOUD), ('/r10/sonar', RANGE)) == {
+        ('/scan', '/', 'scan'), ('/r1/camera/points', '/r1', 'cloud'), ('/r10/sonar', '/', 'range')
+    }  # fmt: skip
+    assert discover(GraphNames({'/scan': [LASER_SCAN]})).sensors == ()
+
+
+def test_the_same_pictures_are_shown_once_the_compressed_ones_if_there_are_any():
+    raw, file = ('/c/image', IMAGE), ('/c/image/compressed', COMPRESSED_IMAGE)
+    assert shown(raw) == {('/c/image', '/', 'picture')}
+    assert shown(raw, file) == shown(file) == {('/c/image/compressed', '/', 'picture')}
+
+
+def test_depths_are_shown_raw():
+    """image_transport offers compressed ones as well, and publishes nothing there."""
+    raw = ('/c/depth/image_raw', IMAGE)
+    others = [(f'{raw[0]}/{name}', COMPRESSED_IMAGE) for name in ('compressed', 'compressedDepth')]
+    assert shown(raw, *others) == {('/c/depth/image_raw', '/', 'picture')}
 
 
 def test_joint_states_may_have_another_place():

@@ -14,7 +14,7 @@ import pytest
 from support.paths import ROOT
 
 from amr_description.errors import ProtocolError
-from amr_description.viewer import protocol, requests, states
+from amr_description.viewer import protocol, requests, samples, states
 from amr_description.viewer.requests import decode
 
 TEXT = (ROOT / 'web' / 'src' / 'protocol.ts').read_text(encoding='utf-8')
@@ -149,6 +149,9 @@ def test_constants_are_the_same():
         'MOTION_FLOATS': states.MOTION_FLOATS,
         'COMMAND_FLOATS': states.COMMAND_FLOATS,
         'WHEEL_FLOATS': states.WHEEL_FLOATS,
+        'SAMPLE_KIND': samples.SAMPLE_KIND,
+        'HEAD_AT': samples.HEAD_AT,
+        'PLACE_FLOATS': samples.PLACE_FLOATS,
     }
 
 
@@ -181,6 +184,8 @@ def test_a_spawn_is_read():
 def test_what_a_page_watches_is_read():
     assert decode('{"type": "watch", "parts": ["wheels"]}') == requests.Watch(('wheels',))
     assert decode('{"type": "watch", "parts": []}') == requests.Watch(())
+    frame = '{"type": "watch", "parts": [], "topics": ["/scan", "/front/scan"]}'
+    assert decode(frame) == requests.Watch((), ('/scan', '/front/scan'))
 
 
 def test_play_and_pause_are_told_apart():
@@ -215,6 +220,7 @@ def test_play_and_pause_are_told_apart():
         ('{"type": "watch", "parts": "wheels"}', "'parts' of 'watch' cannot be \"wheels\""),
         ('{"type": "watch", "parts": ["wheels", "sky"]}', r"cannot be \['wheels', 'sky'\]"),
         ('{"type": "watch", "parts": [["wheels"]]}', r"cannot be \[\['wheels'\]\]"),
+        ('{"type": "watch", "parts": [], "topics": [1]}', r"'topics' of 'watch' cannot be \[1\]"),
     ],
 )
 def test_what_cannot_be_understood_is_refused_in_one_line(frame, text):

@@ -3,16 +3,20 @@
 /** All that is to be seen, where the last state has it, in the fixed frame. */
 import { Box3, Matrix4, Scene as ThreeScene, Vector3 } from 'three';
 import type { Layout, Model } from '../protocol';
+import type { SensorInfo } from '../protocol';
+import type { Sample } from '../samples';
 import { isKnownPose, type State } from '../state';
 import { Axes, type PlacedFrame } from './axes';
 import { differ } from './changes';
 import { Contacts } from './contacts';
 import { RobotEntry } from './entry';
-import { Placement, WORLD } from './placement';
+import { StateHistory } from './history';
+import { Placement, WORLD, type Body } from './placement';
 import type { RobotEvents, RobotView } from './robot';
+import { SensorLayer, type Locate } from './sensors';
 import { Surroundings } from './surroundings';
 import type { Palette } from './theme';
-import { FrameTree } from './tree';
+import { FrameTree, readPose } from './tree';
 import { WorldView } from './world';
 
 /** What is shown beside robots and world. */
@@ -35,6 +39,7 @@ export class Picture {
   readonly overlay = new ThreeScene();
   readonly world: WorldView;
   readonly surroundings: Surroundings;
+  readonly sensors = new SensorLayer();
   options: SceneOptions = {
     frames: true, frameNames: true, trails: true, contacts: true, collisions: false, grid: true,
   };
@@ -48,6 +53,7 @@ export class Picture {
   private readonly placement = new Placement();
   private readonly axes = new Axes();
   private readonly contacts = new Contacts();
+  private readonly history = new StateHistory();
   private layout: Layout = EMPTY;
   private tree = new FrameTree(EMPTY);
   private state: State | null = null;
@@ -57,8 +63,8 @@ export class Picture {
   constructor(private readonly isSoftware: boolean) {
     this.world = new WorldView(!isSoftware);
     this.surroundings = new Surroundings(this.scene, isSoftware);
-    this.scene.add(this.world.object);
-    this.overlay.add(this.axes.object, this.contacts.object);
+    this.scene.add(this.world.object, this.sensors.points);
+    this.overlay.add(this.axes.object, this.contacts.object, this.sensors.marks);
   }
 
   /** Draw a robot, in place of an earlier one of its name. Throws BadModel. */
@@ -91,13 +97,14 @@ export class Picture {
       return false;
     }
     this.state = state;
+    this.history.add(state);
     this.isWaiting = false;
     for (const robot of state.robots) {
       if (this.robots.get(robot.id)?.trails.add(robot, state.time)) {
         this.forgetAnchor(robot.id);
       }
     }
-    return differ(this.drawn, state);
+    return this.sensors.expire(state.time) || differ(this.drawn, state);
   }
 
   setOptions(options: Partial<SceneOptions>): void {
@@ -107,10 +114,15 @@ export class Picture {
   }
 
   setPalette(palette: Palette): void {
-    const { surroundings, world, axes, contacts } = this;
-    for (const each of [surroundings, world, axes, contacts, ...this.views().values()]) {
+    const { surroundings, world, axes, contacts, sensors } = this;
+    for (const each of [surroundings, world, axes, contacts, sensors, ...this.views().values()]) {
       each.setPalette(palette);
     }
+  }
+
+  /** Take over a sample. */
+  setSample(info: SensorInfo, sample: Sample): void {
+    this.sensors.take(info, sample);
   }
 
   /** A robot's mesh has come. */
@@ -178,7 +190,11 @@ export class Picture {
       return;
     }
     this.readState();
+    const before = this.fixedFrame;
     this.fixedFrame = this.chosenFrame ?? this.defaultFrame();
+    if (this.fixedFrame !== before) {
+      this.sensors.unsettle();
+    }
     const entries = [...this.robots.values()];
     const bodies = entries.flatMap(({ body }) => body ?? []);
     this.placement.update(this.tree, bodies, this.fixedFrame);
@@ -188,6 +204,35 @@ export class Picture {
     entries.forEach((entry) => entry.place(this.placement, world, this.options.trails));
     this.placeFrames();
     this.placeContacts();
+    this.sensors.place(this.locator());
+  }
+
+  /** Where sensors were: what is asked more than once of a state is worked out once. */
+  private locator(): Locate {
+    const known = new Map<State, Placement>();
+    return (frame, robot, stamp) => {
+      const state = this.history.nearest(stamp);
+      if (state === null) {
+        return { pose: null, isSettled: false };
+      }
+      const placement = known.get(state) ?? this.placementAt(state);
+      known.set(state, placement);
+      const own = `${robot.slice(1)}/${frame}`; // of a robot with a TF of its own
+      const pose = placement.poseOf(own) ?? placement.poseOf(frame);
+      return { pose, isSettled: pose !== null && this.history.isSettled(stamp) };
+    };
+  }
+
+  private placementAt(state: State): Placement {
+    const tree = new FrameTree(state.layout);
+    tree.read(state.poses);
+    const bodies = [...this.robots.values()].flatMap(({ id, body }): Body[] => {
+      const values = state.robots.find((robot) => robot.id === id)?.truth;
+      const truth = values === undefined ? null : readPose(values, 0, new Matrix4());
+      // Its links are where TF had them then.
+      return body === null ? [] : [{ ...body, truth, links: new Map([[body.base, new Matrix4()]]) }];
+    });
+    return this.placement.at(tree, bodies, this.fixedFrame);
   }
 
   /** Let odometry and truth of a robot agree anew. */

@@ -30,10 +30,19 @@ interface Place {
 }
 
 export class Placement {
-  private readonly anchors = new Map<string, Matrix4>(); // root of a TF tree -> its pose in world
   private places = new Map<string, Place>();
   private bases = new Map<Body, Place>();
   private fixed: Place | null = null; // its pose is the inverse: from its reference to it
+
+  /** `anchors`: root of a TF tree -> its pose in world. */
+  constructor(private readonly anchors = new Map<string, Matrix4>()) {}
+
+  /** Where everything was at another time, by what is known since then of odometry and truth. */
+  at(tree: FrameTree, bodies: readonly Body[], fixedFrame: string): Placement {
+    const other = new Placement(this.anchors);
+    other.update(tree, bodies, fixedFrame);
+    return other;
+  }
 
   /** Forget where odometry and truth agreed; at a reset. */
   clear(): void {

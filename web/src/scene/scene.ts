@@ -6,7 +6,8 @@
  * Nothing is drawn but what changed: messages and states are taken over at once, and drawn once in
  * the next frame, however many came. All methods are cheap; none waits.
  */
-import type { Layout, Model, World } from '../protocol';
+import type { Layout, Model, SensorInfo, World } from '../protocol';
+import type { Sample } from '../samples';
 import type { State } from '../state';
 import { labelsOf } from './axes';
 import { CameraRig } from './camera';
@@ -15,6 +16,7 @@ import { Painter } from './painter';
 import { Picking, type Picked } from './picking';
 import { Picture, type SceneOptions } from './picture';
 import type { RobotView } from './robot';
+import type { SensorNumbers } from './sensors';
 import { PALETTES, type Theme } from './theme';
 import { isSoftwareDrawn } from './webgl';
 
@@ -90,6 +92,23 @@ export class Scene {
     if (this.picture.setState(state)) {
       this.invalidate();
     }
+  }
+
+  /** Take over a sample of a sensor. */
+  takeSample(info: SensorInfo, sample: Sample): void {
+    this.picture.setSample(info, sample);
+    this.invalidate();
+  }
+
+  /** Draw no other sensors than these topics. */
+  retainSensors(topics: ReadonlySet<string>): void {
+    this.picture.sensors.retain(topics);
+    this.invalidate();
+  }
+
+  /** What is drawn of each sensor. */
+  sensorNumbers(): Record<string, SensorNumbers> {
+    return this.picture.sensors.numbers();
   }
 
   /** Choose the frame that stands still; null: `world` where there is truth, else TF's root. */

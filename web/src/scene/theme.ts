@@ -25,6 +25,9 @@ export interface Palette {
   labelBack: string;
   contact: string; // load under a wheel
   slip: string;
+  scans: [string, string, string]; // of one lidar after the other
+  distance: string; // what a range finder sees
+  touch: string; // where shapes touch
   highlight: string;
   collision: string;
   sun: number; // candela-free units of three.js: pi lights a white surface to white
@@ -50,6 +53,9 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     labelBack: 'rgba(255, 255, 255, 0.78)',
     contact: '#1f9d55',
     slip: '#d6246e',
+    scans: ['#e11d2e', '#7a3ff2', '#0b7a3b'],
+    distance: '#7a3ff2',
+    touch: '#e11d2e',
     highlight: '#ff9d00',
     collision: '#d97706',
     sun: 2.3,
@@ -73,6 +79,9 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     labelBack: 'rgba(16, 21, 27, 0.74)',
     contact: '#3ddc84',
     slip: '#ff5fa2',
+    scans: ['#ff4d5e', '#b48cff', '#4be08a'],
+    distance: '#b48cff',
+    touch: '#ff4d5e',
     highlight: '#ffb02e',
     collision: '#f59e0b',
     sun: 2.0,

@@ -1,0 +1,202 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Messages of sensors as samples for pages: bytes in, the frame of a sample out.
+
+Pure, on any thread. A message that is broken, or of a kind that a page cannot show, becomes a
+sample that says so in one line.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+import math
+
+import numpy as np
+
+from amr_description.clock import NANOSECONDS
+from amr_description.errors import ViewerError
+from amr_description.ros.cdr_sensors import (
+    CloudData,
+    CompressedData,
+    ContactsData,
+    Header,
+    ImageData,
+    RangeData,
+    read_cloud,
+    read_compressed_image,
+    read_contacts,
+    read_contacts_state,
+    read_image,
+    read_range,
+    read_scan,
+    ScanData,
+)
+from amr_description.text import shorten
+from amr_description.viewer.clouds import thinned
+from amr_description.viewer.graph import (
+    CLASSIC_CONTACTS,
+    CLOUD,
+    COMPRESSED_IMAGE,
+    GZ_CONTACTS,
+    IMAGE,
+    LASER_SCAN,
+    RANGE,
+)
+from amr_description.viewer.pictures import picture_of_file, picture_of_pixels, SmallPicture
+from amr_description.viewer.protocol import (
+    Cloud,
+    ContactInfo,
+    Contacts,
+    Distance,
+    Head,
+    Origin,
+    Picture,
+    Scan,
+    Unreadable,
+)
+from amr_description.viewer.samples import encode_sample, PLACE_FLOATS
+
+MOST_RAYS = 20_000
+"""Ranges of a scan that are sent."""
+_WORLD = 'world'
+"""The frame of the points of ``ros_gz_interfaces/msg/Contacts``, whatever the header says."""
+_LONGEST_NAME = 200
+"""Characters of the name of a frame."""
+_SHOWN_CONTACTS = 32
+"""Pairs of shapes that are named."""
+_MOST_PLACES = 256
+"""Points of contact that are sent."""
+
+type Parts = tuple[np.ndarray | bytes, ...]
+type Converter = Callable[[bytes, Origin], tuple[Head, Parts]]
+"""Makes a head, and what follows it, of a message."""
+
+
+def sample_of(message_type: str, data: bytes, topic: str, rate: float | None) -> bytes:
+    """
+    Return the frame of a sample.
+
+    Args:
+        message_type: Of the message: one of :data:`CONVERTERS`.
+        data: The message.
+        topic: That it came by.
+        rate: Messages per second of the topic; None: not known yet.
+    """
+    origin = Origin(topic, '', 0.0, rate)
+    try:
+        return encode_sample(*CONVERTERS[message_type](data, origin))
+    except (ValueError, ViewerError) as error:
+        return unreadable(topic, str(error), rate)
+
+
+def unreadable(topic: str, text: str, rate: float | None = None) -> bytes:
+    """Return a sample that says why there is none."""
+    return encode_sample(Unreadable(Origin(topic, '', 0.0, rate), shorten(text)))
+
+
+def _scan(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    scan: ScanData = read_scan(data)
+    count = len(scan.ranges)
+    thin = max(1, -(-count // MOST_RAYS))
+    increment = scan.angle_increment * thin
+    if not (math.isfinite(scan.angle_min) and math.isfinite(increment)):
+        raise ViewerError(f'a scan begins at {scan.angle_min} rad, every {increment} rad')
+    head = Scan(
+        _origin(origin, scan.header),
+        scan.angle_min,
+        increment,
+        _finite(scan.range_min),
+        _finite(scan.range_max),
+        count,
+    )
+    return head, (np.ascontiguousarray(scan.ranges[::thin], '<f4'),)
+
+
+def _cloud(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    cloud: CloudData = read_cloud(data)
+    step, count = cloud.point_step, cloud.width * cloud.height
+    octets, row = cloud.data, cloud.width * cloud.point_step
+    if cloud.height > 1 and 0 < row < cloud.row_step <= len(octets) // cloud.height:
+        rows = octets[: cloud.height * cloud.row_step].reshape(cloud.height, cloud.row_step)
+        octets = rows[:, :row].reshape(-1)
+    found = thinned(count, step, cloud.fields, octets, is_bigendian=cloud.is_bigendian)
+    head = Cloud(_origin(origin, cloud.header), count, found.colouring, found.low, found.high)
+    return head, (found.points, np.ascontiguousarray(found.colours))
+
+
+def _image(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    image: ImageData = read_image(data)
+    picture = picture_of_pixels(
+        image.encoding,
+        image.width,
+        image.height,
+        image.step,
+        image.data,
+        is_bigendian=image.is_bigendian,
+    )
+    return _picture(_origin(origin, image.header), image.encoding, picture)
+
+
+def _compressed_image(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    image: CompressedData = read_compressed_image(data)
+    picture = picture_of_file(image.data.tobytes())
+    return _picture(_origin(origin, image.header), shorten(image.format), picture)
+
+
+def _picture(origin: Origin, encoding: str, picture: SmallPicture) -> tuple[Head, Parts]:
+    size = (picture.width, picture.height, picture.low, picture.high)
+    return Picture(origin, picture.format, encoding, *size), (picture.data,)
+
+
+def _range(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    found: RangeData = read_range(data)
+    head = Distance(
+        _origin(origin, found.header),
+        _finite(found.field_of_view),
+        _finite(found.min_range),
+        _finite(found.max_range),
+    )
+    return head, (np.array([found.range], '<f4'),)
+
+
+def _gz_contacts(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    found = read_contacts(data)
+    return _contacts(replace(found, header=replace(found.header, frame=_WORLD)), origin)
+
+
+def _classic_contacts(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    return _contacts(read_contacts_state(data), origin)
+
+
+def _contacts(found: ContactsData, origin: Origin) -> tuple[Head, Parts]:
+    named = tuple(
+        ContactInfo(shorten(each.first), shorten(each.second), len(each.points), each.force)
+        for each in found.contacts[:_SHOWN_CONTACTS]
+    )
+    places = [np.hstack([each.points, each.normals]) for each in found.contacts]
+    with np.errstate(over='ignore', invalid='ignore'):
+        joined = np.concatenate([np.empty((0, PLACE_FLOATS)), *places])[:_MOST_PLACES].astype(
+            '<f4'
+        )
+    return Contacts(_origin(origin, found.header), named), (joined,)
+
+
+def _origin(origin: Origin, header: Header) -> Origin:
+    frame = header.frame.removeprefix('/')[:_LONGEST_NAME]
+    return replace(origin, frame=frame, stamp=header.stamp / NANOSECONDS)
+
+
+def _finite(number: float) -> float | None:
+    return number if math.isfinite(number) else None
+
+
+CONVERTERS: Mapping[str, Converter] = {
+    LASER_SCAN: _scan,
+    CLOUD: _cloud,
+    IMAGE: _image,
+    COMPRESSED_IMAGE: _compressed_image,
+    RANGE: _range,
+    GZ_CONTACTS: _gz_contacts,
+    CLASSIC_CONTACTS: _classic_contacts,
+}
+"""By the type of the message."""

@@ -1,0 +1,72 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Which sensors the page shows, and the latest sample of each. */
+import type { SensorInfo } from '../protocol';
+import { recall, remember } from '../remember';
+import type { Sample } from '../samples';
+import type { Store } from '../store';
+
+/** Shown until the user says otherwise: a scan is small, and what a mobile robot is about. */
+const SHOWN_AT_FIRST: ReadonlySet<SensorInfo['kind']> = new Set(['scan']);
+
+export class Sensing {
+  /** The latest samples, by topic, of those that are on. */
+  readonly latest = new Map<string, Sample>();
+  /** What is on, or there is, has changed. */
+  onChange: () => void = () => {};
+
+  constructor(private readonly store: Store) {
+    store.watch(['graph', 'robot'], () => this.settle());
+    store.watch(['reset'], () => {
+      this.latest.clear(); // of a time that has not come yet
+      this.onChange();
+    });
+  }
+
+  /** The sensors of the robot that the panels show. */
+  get here(): readonly SensorInfo[] {
+    const { graph, robot } = this.store;
+    return (graph?.sensors ?? []).filter((each) => each.robot === robot?.id);
+  }
+
+  isOn({ topic, kind }: SensorInfo): boolean {
+    const kept = recall(`sensor.${topic}`);
+    return kept === null ? SHOWN_AT_FIRST.has(kind) : kept === 'yes';
+  }
+
+  set(topic: string, on: boolean): void {
+    remember(`sensor.${topic}`, on ? 'yes' : 'no');
+    this.settle();
+  }
+
+  /** Those that are on. */
+  get shown(): readonly SensorInfo[] {
+    return this.here.filter((each) => this.isOn(each));
+  }
+
+  /** … of which something is drawn in the scene. */
+  get inScene(): readonly SensorInfo[] {
+    return this.shown.filter(({ kind }) => kind !== 'picture');
+  }
+
+  /** Take in a sample. Returns its sensor; null: it is shown no more. */
+  take(sample: Sample): SensorInfo | null {
+    const { topic } = sample.head.origin;
+    const info = this.shown.find((each) => each.topic === topic) ?? null;
+    if (info !== null) {
+      this.latest.set(topic, sample);
+    }
+    return info;
+  }
+
+  /** Forget the samples of what is not shown any more. */
+  private settle(): void {
+    const shown = new Set(this.shown.map(({ topic }) => topic));
+    for (const topic of [...this.latest.keys()]) {
+      if (!shown.has(topic)) {
+        this.latest.delete(topic);
+      }
+    }
+    this.onChange();
+  }
+}

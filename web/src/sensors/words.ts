@@ -1,0 +1,70 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** What a sample says, in words. */
+import { fixed, UNKNOWN } from '../format';
+import type { Contacts, Picture } from '../protocol';
+import type { Sample } from '../samples';
+
+const OLDEST_CONTACT = 0.5; // s; some publish only while there is a contact
+const OLDEST = 3600; // s; more is the difference of two clocks
+
+/** How often it comes, and how old the latest is at `now`, s. */
+export function timing({ head }: Sample, now: number): string {
+  const { rate, stamp } = head.origin;
+  const often = rate === null ? UNKNOWN : `${fixed(rate, rate < 10 ? 1 : 0)} Hz`;
+  const age = now - stamp;
+  const known = head.type !== 'unreadable' && Math.abs(age) < OLDEST;
+  return known ? `${often} · ${fixed(Math.max(0, age), 2)} s old` : often;
+}
+
+/** What it has measured, on one line; `now`: s. */
+export function measured({ head, floats }: Sample, now: number): string {
+  switch (head.type) {
+    case 'scan':
+      return `${head.count} rays · ${nearest(floats, head.range_min, head.range_max)}`;
+    case 'cloud':
+      return `${head.count} points`;
+    case 'picture':
+      return pictureWords(head);
+    case 'range':
+      return distance(floats[0]);
+    case 'contacts':
+      return contactWords(head, now - head.origin.stamp > OLDEST_CONTACT);
+    case 'unreadable':
+      return head.text;
+  }
+}
+
+function nearest(ranges: Float32Array, low: number | null, high: number | null): string {
+  let least = Infinity;
+  for (const range of ranges) {
+    if (range < least && range >= (low ?? -Infinity) && range <= (high ?? Infinity)) {
+      least = range;
+    }
+  }
+  return least === Infinity ? 'nothing in range' : `nearest ${fixed(least, 2)} m`;
+}
+
+function pictureWords({ width, height, encoding, low, high }: Picture): string {
+  const size = `${width} × ${height} ${encoding}`;
+  return low === null || high === null ? size : `${size} · ${fixed(low, 2)} to ${fixed(high, 2)} m`;
+}
+
+function distance(range: number | undefined): string {
+  if (range === Infinity) {
+    return 'nothing in range'; // REP 117
+  }
+  return range === -Infinity ? 'too near' : `${fixed(range, 3)} m`;
+}
+
+function contactWords({ contacts }: Contacts, isOver: boolean): string {
+  if (contacts.length === 0 || isOver) {
+    return 'touches nothing';
+  }
+  return contacts
+    .map(({ first, second, force }) => {
+      const strength = force === null ? '' : ` (${fixed(force, 1)} N)`;
+      return `${first} touches ${second}${strength}`;
+    })
+    .join('; ');
+}
