@@ -51,7 +51,7 @@ class Host:
         self.lines.append(text)
 
     def spawn(self, name, namespace, *sensors, pose=None):
-        self.world.spawn(name, AMR, pose or Transform((0.0, 0.0, 0.2)))
+        self.world.spawn(name, AMR, pose or Transform())
         self.sensors.add(name, namespace, sensors)
 
     def remove(self, name):

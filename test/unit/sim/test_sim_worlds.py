@@ -3,6 +3,8 @@
 """The shipped worlds, driven through."""
 
 from fixtures.sim.driving import AMR, Drive
+import mujoco
+import numpy as np
 import pytest
 
 from amr_description.model.frames import Transform
@@ -98,3 +100,21 @@ def test_onto_the_dock_of_the_warehouse():
     drive.run(0.0, 0.5, 6.0)
     # It turns up there as on the ground: every surface has the wheels' contact.
     assert drive.yaw == pytest.approx(drive.odometry.heading, rel=0.05)
+
+
+def test_a_level_scan_of_the_warehouse_sees_its_things_beside_a_free_aisle():
+    world = MujocoWorld('warehouse')
+    world.step(1)
+    model, data, count = world.engine.model, world.engine.data, 360
+    angles = np.linspace(-np.pi, np.pi, count, endpoint=False)
+    rays = np.stack((np.cos(angles), np.sin(angles), np.zeros(count)), axis=1)
+    geoms, ranges = np.full(count, -1, np.int32), np.zeros(count)
+    mujoco.mj_multiRay(
+        model, data, [0, 0, 0.25], rays.ravel(), None, 1, -1, geoms, ranges, None, count, 100.0
+    )
+    seen = {model.geom(int(geom)).name for geom in geoms}
+    assert {'east', 'west', 'pillar', 'crate_5', 'crate_7', 'bin', 'left_leg'} <= seen
+    assert ranges.min() > 1.6
+    # Through the doorway, and no farther elsewhere in the west.
+    assert ranges[0] == pytest.approx(6.0)
+    assert ranges[20] == pytest.approx(4.05 / np.cos(angles[20] + np.pi))
