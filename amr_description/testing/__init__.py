@@ -17,6 +17,7 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 
 ``robot.py``            one robot: spawned, controlled, and read by its topics
 ``readings.py``         its motion and joint states, from messages
+``sensors.py``            what its lidars, cameras and contact sensors see at an instant
 ``lock_step.py``        services of a paused simulator; commands that are known to have arrived
 ``program.py``          the simulator's process and its ROS domain
 ``failure_logs.py``     the simulator's log, for a test that fails

@@ -28,6 +28,7 @@ from simulation_interfaces.srv import (
     ResetSimulation,
     StepSimulation,
 )
+from std_srvs.srv import Trigger
 
 from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
@@ -113,15 +114,19 @@ class LockStep:
         """
         if self.node.count_publishers(self._acknowledgements) > 1:
             raise SimulationError(f'a second simulator {self._name} {self._intruder()}')
-        client, name = self._client(service_type), name_of_type(service_type)
-        self.wait(client.service_is_ready, f"the simulator's service {name}")
-        future = client.call_async(service_type.Request(**fields))
-        self.wait(future.done, f'the answer of {name}')
-        response = future.result()
+        name = name_of_type(service_type)
+        response = self._call(service_type, name, service_type.Request(**fields))
         result = response.result
         if result.result != Result.RESULT_OK:
             raise SimulationError(f'{name}: {result.error_message}')
         return response
+
+    def measure(self) -> list[str]:
+        """Have all sensors that are heard measure now; return the topics that are heard."""
+        response = self._call(Trigger, 'measure', Trigger.Request())
+        if not response.success:
+            raise SimulationError(f'measure: {response.message}')
+        return response.message.split()
 
     def state(self, entity: str) -> EntityState:
         """Return the present state of an entity."""
@@ -259,10 +264,17 @@ class LockStep:
         number = int(message.value)
         self._acknowledged[message.key] = max(number, self._acknowledged.get(message.key, 0))
 
-    def _client(self, service_type: Any) -> Client:
+    def _call(self, service_type: Any, name: str, request: Any) -> Any:
+        client = self._client(service_type, name)
+        self.wait(client.service_is_ready, f"the simulator's service {name}")
+        future = client.call_async(request)
+        self.wait(future.done, f'the answer of {name}')
+        return future.result()
+
+    def _client(self, service_type: Any, name: str = '') -> Client:
         client = self._clients.get(service_type)
         if client is None:
-            name = f'{self._name}/{name_of_type(service_type)}'
+            name = f'{self._name}/{name or name_of_type(service_type)}'
             client = self._clients[service_type] = self.node.create_client(service_type, name)
         return client
 

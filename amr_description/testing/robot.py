@@ -43,6 +43,7 @@ from amr_description.testing.readings import (
     motion_of_entity,
     motion_of_odometry,
 )
+from amr_description.testing.sensors import Contact, Image, Points, RobotReadings, Scan
 from amr_description.testing.tracebacks import is_for_the_test
 
 __tracebackhide__ = is_for_the_test
@@ -77,7 +78,13 @@ class Robot:
     """
 
     def __init__(
-        self, lock_step: LockStep, readings: Node, name: str, namespace: str, topics: Topics
+        self,
+        lock_step: LockStep,
+        readings: Node,
+        name: str,
+        namespace: str,
+        topics: Topics,
+        sensors: RobotReadings,
     ) -> None:
         """Subscribe to the topics; ``readings``: the node of the subscriptions."""
         self.name = name
@@ -89,6 +96,7 @@ class Robot:
         self._lock_step = lock_step
         self._odometry = _latest(readings, Odometry, topics.odometry)
         self._joints = _latest(readings, JointState, topics.joints)
+        self._sensors = sensors
 
     def twist(self, linear: float, angular: float) -> TwistStamped | Twist:
         """Return a command, m/s and rad/s, of the type that :attr:`command_topic` has."""
@@ -112,6 +120,31 @@ class Robot:
         return joints_of(self._newest(self._joints, _BROADCASTER))
 
     @property
+    def scan(self) -> Scan:
+        """What the robot's lidar sees at this instant; see :meth:`scan_of`."""
+        return self._sensors.scan()
+
+    def scan_of(self, topic: str) -> Scan:
+        """Return what the lidar with a topic sees at this instant, whatever its rate."""
+        return self._sensors.scan(topic)
+
+    def image(self, topic: str = '') -> Image:
+        """Return the colours that the camera, or that with a topic, sees at this instant."""
+        return self._sensors.image(topic)
+
+    def depth(self, topic: str = '') -> Image:
+        """Return the depths that the camera, or that with a topic, sees at this instant."""
+        return self._sensors.depth(topic)
+
+    def points(self, topic: str = '') -> Points:
+        """Return the cloud that the sensor, or that with a topic, sees at this instant."""
+        return self._sensors.points(topic)
+
+    def contacts(self, topic: str = '') -> list[Contact]:
+        """Return what touches the contact sensor, or that with a topic, at this instant."""
+        return self._sensors.contacts(topic)
+
+    @property
     def is_moving(self) -> bool:
         """Whether it moves, by the ground truth."""
         truth = self.truth
@@ -130,6 +163,7 @@ class Robot:
         """Remove the subscriptions."""
         for topic in self._topics:
             topic.close()
+        self._sensors.close()
 
     @property
     def _topics(self) -> list[LatestMessage]:
@@ -173,6 +207,11 @@ def spawn(
         initial_pose=request.initial_pose,
     )
     return response.entity_name
+
+
+def namespace_of(description: Description, namespace: str = '') -> str:
+    """Return the namespace of a robot, absolute: that which is given, or what its URDF says."""
+    return f'/{namespace.strip("/")}' if namespace else manager_of(description)[0]
 
 
 def _latest(readings: Node, message_type: Any, topic: str) -> LatestMessage | None:
@@ -222,8 +261,7 @@ def spawn_controllers(
     Raises:
         ControllerError, ParameterError: A controller that is named cannot be spawned.
     """
-    of_the_urdf, manager_name = manager_of(description)
-    inside = f'/{namespace.strip("/")}' if namespace else of_the_urdf
+    inside, manager_name = namespace_of(description, namespace), manager_of(description)[1]
     name = f'{inside.rstrip("/")}/{manager_name}'
     with closing(ManagerClient(lock_step.node, name, timeout=TIMEOUT, silent=5.0)) as manager:
         declared = declared_controllers(files, inside, manager_name)

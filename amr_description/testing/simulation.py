@@ -44,7 +44,7 @@ from amr_description.errors import SimulationError
 from amr_description.model.controller_files import files_of
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_bridge import NO_BRIDGE, read_bridge
+from amr_description.model.gazebo_bridge import bridged, NO_BRIDGE, read_bridge
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
@@ -54,7 +54,14 @@ from amr_description.ros.transport import udp_only
 from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
-from amr_description.testing.robot import Robot, spawn, spawn_controllers, Topics
+from amr_description.testing.robot import (
+    namespace_of,
+    Robot,
+    spawn,
+    spawn_controllers,
+    Topics,
+)
+from amr_description.testing.sensors import Contact, Image, Points, RobotReadings, Scan
 from amr_description.testing.tracebacks import is_for_the_test, without_frames
 
 __tracebackhide__ = is_for_the_test
@@ -220,7 +227,14 @@ class Simulation:
                 namespace,
                 self._bridge,
             )
-        self._robots[name] = Robot(lock_step, self._readings, name, namespace, topics)
+        sensors = RobotReadings(
+            lock_step,
+            self._readings,
+            name,
+            bridged(translate(self._robot_model), self._bridge).sensors,
+            namespace_of(self._robot_model, namespace),
+        )
+        self._robots[name] = Robot(lock_step, self._readings, name, namespace, topics, sensors)
         return self._robots[name]
 
     def _begin(self) -> None:
@@ -422,6 +436,31 @@ class Simulation:
     def joints(self) -> dict[str, Joint]:
         """The last state of each joint, by name, from the JointStateBroadcaster."""
         return self.robot.joints
+
+    @property
+    def scan(self) -> Scan:
+        """What the robot's lidar sees at this instant."""
+        return self.robot.scan
+
+    def scan_of(self, topic: str) -> Scan:
+        """Return what the lidar with a topic sees at this instant, whatever its rate."""
+        return self.robot.scan_of(topic)
+
+    def image(self, topic: str = '') -> Image:
+        """Return the colours that the camera, or that with a topic, sees at this instant."""
+        return self.robot.image(topic)
+
+    def depth(self, topic: str = '') -> Image:
+        """Return the depths that the camera, or that with a topic, sees at this instant."""
+        return self.robot.depth(topic)
+
+    def points(self, topic: str = '') -> Points:
+        """Return the cloud that the sensor, or that with a topic, sees at this instant."""
+        return self.robot.points(topic)
+
+    def contacts(self, topic: str = '') -> list[Contact]:
+        """Return what touches the contact sensor, or that with a topic, at this instant."""
+        return self.robot.contacts(topic)
 
     @property
     def log(self) -> str:

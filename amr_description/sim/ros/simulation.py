@@ -39,6 +39,7 @@ from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.ros.sensors.manager import SensorManager
+from amr_description.sim.ros.sensors.measure_service import MeasureService
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import WorldSettings
 
@@ -174,6 +175,7 @@ class Simulation:
                 self.loop_thread.loop.pause()
             context = LoopContext(self.loop_thread, publisher, self.logs)
             self._sensors = SensorManager(node, publisher, self.world, self.log, self._is_paced)
+            self._sensors.on_first = self._serve_measurements
             self.entities = self._entity_manager(context, ground_truth, ros_args)
         except Exception:
             self.logs.stop()
@@ -204,6 +206,14 @@ class Simulation:
     def _is_paced(self) -> bool:
         """Whether cycles wait for the wall clock: neither at factor 0 nor in a step."""
         return self._pacer.factor > 0.0 and self.loop_thread.loop.is_running
+
+    def _serve_measurements(self) -> None:
+        loop = self.loop_thread.loop
+
+        def is_standing_still() -> bool:
+            return not (loop.is_running or loop.is_stepping)
+
+        MeasureService(self._node, self._sensors, self.loop_thread.submit, is_standing_still)
 
     def start(self) -> None:
         """Start the control thread; time begins to pass, unless paused."""

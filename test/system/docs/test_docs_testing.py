@@ -13,13 +13,13 @@ from support.doc_pages import Page, ROOT
 from amr_description.testing.simulation import Simulation
 
 PAGE = Page('test_your_robot.md')
-FIRST, CONFTEST, TESTS, FLEET, ARM, SAME_BITS = PAGE.blocks('python')
+FIRST, CONFTEST, TESTS, FLEET, ARM, SENSORS, SAME_BITS = PAGE.blocks('python')
 (ARM_YAML,) = PAGE.blocks('yaml')
 (OF_README,) = Page('../README.md').blocks('python')
 ARM_URDF = ROOT / 'test' / 'fixtures' / 'sim' / 'arm.urdf'
 
 
-@pytest.mark.parametrize('block', [FIRST, FLEET, SAME_BITS])
+@pytest.mark.parametrize('block', [FIRST, FLEET, SENSORS, SAME_BITS])
 def test_a_block_holds(block):
     PAGE.run(block)
 

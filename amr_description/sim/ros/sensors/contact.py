@@ -77,8 +77,14 @@ class ContactTopics(SensorTopics):
     def measure(self, time: int) -> None:
         """Publish what touches the sensor."""
         contacts = self._reader.read()
-        if not contacts and not self._is_sent_empty:
-            return
+        if contacts or self._is_sent_empty:
+            self._send(time, contacts)
+
+    def answer(self, time: int) -> None:
+        """Publish what touches the sensor, also that nothing does."""
+        self._send(time, self._reader.read())
+
+    def _send(self, time: int, contacts: tuple[Contact, ...]) -> None:
         if self._link and contacts:
             contacts = self._in_link(contacts)
         self._topic.send(ContactsSample(time, self._frame_id, contacts))

@@ -65,6 +65,9 @@ class SensorManager:
         self._scenes = CopiedScenes()
         self._renderer = RayRenderer()
         self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
+        self._is_requested = False
+        self.on_first: Callable[[], None] | None = None
+        """Called when the first sensor comes."""
         loop_publisher.reporters.append(self.report)
 
     def add(self, name: str, namespace: str, sensors: Sequence[WorldSensor]) -> None:
@@ -91,6 +94,9 @@ class SensorManager:
             self._scenes,
             self._renderer,
         )
+        if self.on_first is not None:
+            self.on_first()
+            self.on_first = None
         now = self._world.time
         made = []
         for sensor in sensors:
@@ -117,13 +123,21 @@ class SensorManager:
         """End the thread that measures; the control thread has ended."""
         self._worker.close()
 
+    def request(self) -> None:
+        """Have the sensors that are heard measure in the next cycle; on the control thread."""
+        self._is_requested = True
+
     def report(self, time: int) -> None:
-        """Have the sensors measure that are due at ``time``, ns, and heard."""
+        """Have the sensors measure that are due at ``time``, ns, or requested, and heard."""
         if not self._robots:
             return
+        is_requested, self._is_requested = self._is_requested, False
         present = self._world.names
         for name, sensors in self._robots.items():
             if name in present:
                 for schedule, topics in sensors:
-                    if schedule.is_due(time) and topics.is_heard:
+                    is_due = schedule.is_due(time)
+                    if is_requested and topics.is_heard:
+                        topics.answer(time)
+                    elif is_due and topics.is_heard:
                         topics.measure(time)

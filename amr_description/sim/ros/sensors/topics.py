@@ -82,6 +82,17 @@ class SensorTopics(ABC):
             time: Of this cycle, ns.
         """
 
+    def answer(self, time: int) -> None:
+        """
+        Measure, and publish whatever there is, since somebody asked.
+
+        For sensors that publish nothing when there is nothing to say.
+
+        Args:
+            time: Of this cycle, ns.
+        """
+        self.measure(time)
+
     @abstractmethod
     def destroy(self) -> None:
         """Remove the topics; nothing is published after that."""
