@@ -73,6 +73,8 @@ from amr_description.text import unwrap
 
 # Only a bound, s: messages, timers and end_wait() end the wait at once.
 _SPIN_TIMEOUT = 0.5
+_LONG_TIMEOUT = 10.0
+"""s: where :func:`end_wait` is always called. A wake-up takes a robot's executor 1 to 2 ms."""
 
 
 def run(
@@ -146,17 +148,17 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
             skip_destructors()
 
 
-def spin(executor: Executor, until: Callable[[], bool]) -> None:
+def spin(executor: Executor, until: Callable[[], bool], *, timeout: float = _SPIN_TIMEOUT) -> None:
     """
     Serve the executor's callbacks in this thread until ``until()``, or a shutdown of the context.
 
-    ``until`` is asked after every callback and twice a second; :func:`end_wait` has it asked at
-    once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
+    ``until`` is asked after every callback and each ``timeout`` s; :func:`end_wait` has it asked
+    at once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
     never run a callback. This loop is right for every executor.)
     """
     while executor.context.ok() and not until():
         try:
-            executor.spin_once(timeout_sec=_SPIN_TIMEOUT)
+            executor.spin_once(timeout_sec=timeout)
         except ExternalShutdownException:
             return
         except RCLError:
@@ -278,7 +280,7 @@ class ExecutorThread:
 
     def _run(self) -> None:
         try:
-            spin(self.executor, self._ending.is_set)
+            spin(self.executor, self._ending.is_set, timeout=_LONG_TIMEOUT)
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             print_traceback()
             self._on_failure()

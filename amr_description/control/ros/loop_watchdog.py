@@ -68,8 +68,8 @@ class WatchdogClock:
     def time_without_processor(self, native_id: int) -> float:
         """Return for how long a thread was ready to run and did not; 0: Linux does not tell."""
         try:
-            text = Path(f'/proc/self/task/{native_id}/schedstat').read_text(encoding='ascii')
-            return int(text.split()[1]) * 1e-9
+            with open(f'/proc/self/task/{native_id}/schedstat', 'rb', buffering=0) as file:
+                return int(file.read().split()[1]) * 1e-9
         except (OSError, IndexError, ValueError):
             return 0.0
 
@@ -120,15 +120,8 @@ class LoopWatchdog:
         unseen = self._clock.now() - self._looked - _PERIOD
         self._looked = self._clock.now()
         if self._has_moved():
-            lasted = self._time_standing()
-            if self._is_standing:
-                self._log(Severity.ERROR, f'The control loop goes on after {lasted:.1f} s.')
-            elif min(unseen, lasted) > LIMIT and not self._progress.has_calls:
-                self._log(
-                    Severity.ERROR,
-                    f'The control loop stood for {lasted:.1f} s, and all of this process with it: '
-                    'it was stopped, or a call of C kept the lock of the interpreter.',
-                )
+            if self._is_standing or unseen > LIMIT:
+                self._log_going_on(unseen)
             self._restart()
         elif not self._is_standing and (frame := self.frame_standing()):
             self._is_standing = True
@@ -136,6 +129,18 @@ class LoopWatchdog:
                 Severity.ERROR,
                 f'The control loop has stood for {self._time_standing():.1f} s in '
                 f'{describe_call(frame)}.',
+            )
+
+    def _log_going_on(self, unseen: float) -> None:
+        """Log that the loop goes on; ``unseen``: for how long this thread has not looked, s."""
+        lasted = self._time_standing()
+        if self._is_standing:
+            self._log(Severity.ERROR, f'The control loop goes on after {lasted:.1f} s.')
+        elif min(unseen, lasted) > LIMIT and not self._progress.has_calls:
+            self._log(
+                Severity.ERROR,
+                f'The control loop stood for {lasted:.1f} s, and all of this process with it: '
+                'it was stopped, or a call of C kept the lock of the interpreter.',
             )
 
     def _has_moved(self) -> bool:
