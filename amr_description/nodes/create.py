@@ -155,6 +155,7 @@ def _latched(node: Node, topic: str) -> str:
         lambda: texts or None,
         lambda: warn(f'Waiting messages on topic [{subscription.topic_name}].'),
         every=1.0,
+        of_message=True,
     )
     return texts[-1]
 

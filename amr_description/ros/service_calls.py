@@ -22,6 +22,14 @@ _POLL = 0.05
 _EARLY, _EARLY_POLL = 1.0, 0.01
 """s of a wait in which a change is nearly always on its way, and how soon it is seen then."""
 
+_SHARE = 0.02
+"""Of a core, that looking may take meanwhile: in a large graph a look takes a millisecond, and of
+ten robots twenty programs look at once, on the processors that what they wait for has to start on.
+"""
+
+_MESSAGE_POLL = 0.1
+"""s between two looks at the graph where a message is what is waited for, which ends the wait."""
+
 _GRAPH_POLL = 0.01
 """s between two looks at the graph alone."""
 
@@ -54,16 +62,19 @@ def wait_until[Result](
     *,
     every: float = 1.0,
     timeout: float = 0.0,
+    of_message: bool = False,
 ) -> Result | None:
     """
     Spin a node, by its executor if it has one, until ``condition()`` is not ``None``.
 
     Args:
         node: It is spun here.
-        condition: Asked after every callback, and 20 times a second, at first 100 times.
+        condition: Asked after every callback, and besides as ``of_message`` says.
         on_wait: Called every ``every`` s.
         every: s.
         timeout: s, of a :class:`~amr_description.ros.wait_clock.WaitClock`; 0: without end.
+        of_message: A callback changes the condition, it is asked ten times a second besides; else
+            20 times, at first up to 100 times, as nothing tells of a change of the graph.
 
     Returns:
         What ``condition()`` returned; ``None``: the time is over.
@@ -75,6 +86,7 @@ def wait_until[Result](
     try:
         clock = WaitClock()
         start = last = clock.now()
+        worked = time.thread_time()
         while (result := condition()) is None:
             now = clock.now()
             if timeout and now - start >= timeout:
@@ -82,7 +94,11 @@ def wait_until[Result](
             if now - last >= every:
                 last = now
                 on_wait()
-            clock.wait(_EARLY_POLL if now - start < _EARLY else _POLL, executor.spin_once)
+            before, worked = worked, time.thread_time()
+            poll = _MESSAGE_POLL if of_message else _POLL
+            if now - start < _EARLY and not of_message:
+                poll = min(poll, max(_EARLY_POLL, (worked - before) / _SHARE))
+            clock.wait(poll, executor.spin_once)
         return result
     finally:
         if was_added:
@@ -194,7 +210,9 @@ def _answer(
         return None
 
     for attempt in range(1, attempts + 1):
-        response = wait_until(node, answered_or_gone, each_second, timeout=timeout)
+        response = wait_until(
+            node, answered_or_gone, each_second, timeout=timeout, of_message=True
+        )
         if response is not None:
             return response
         if attempts > 1:
