@@ -19,7 +19,11 @@ from typing import Self, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS as NANOSECONDS
 from amr_description.errors import ControllerError, InterfaceError
-from amr_description.model.hardware_info import IMU_INTERFACES as IMU_INTERFACES
+from amr_description.model.hardware_info import (
+    IMU_INTERFACES as IMU_INTERFACES,
+    MAGNETIC_INTERFACES as MAGNETIC_INTERFACES,
+    WRENCH_INTERFACES as WRENCH_INTERFACES,
+)
 
 if TYPE_CHECKING:
     from amr_description.model.hardware_info import ComponentInfo, InterfaceInfo
@@ -45,8 +49,6 @@ POSE_INTERFACES = (
     *(f'orientation.{axis}' for axis in 'xyzw'),
 )
 """The state interfaces of a pose: m, a unit quaternion."""
-WRENCH_INTERFACES = (*(f'force.{axis}' for axis in 'xyz'), *(f'torque.{axis}' for axis in 'xyz'))
-"""The state interfaces of a force-torque sensor: N, N·m."""
 
 
 class LifecycleState(enum.IntEnum):

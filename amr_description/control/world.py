@@ -140,3 +140,29 @@ class World(Protocol):
         Raises:
             SimulationError: there is no such link.
         """
+
+    @property
+    def magnetic_field(self) -> 'Vector':
+        """The magnetic field of the world, T, in its axes."""
+
+    def distances(
+        self,
+        link: str,
+        mount_pose: 'Transform',
+        directions: 'Sequence[Vector]',
+        farthest: float,
+    ) -> list[float]:
+        """
+        Return how far away something is seen, m, in each direction; inf where nothing is.
+
+        The parts of the robot that cannot move against the link are not seen.
+
+        Args:
+            link: on which the observer is mounted.
+            mount_pose: the transform from the observer to the link.
+            directions: unit vectors in the axes of the observer.
+            farthest: what is farther away, m, need not be seen.
+
+        Raises:
+            SimulationError: there is no such link.
+        """

@@ -12,9 +12,11 @@ is used. In the simulator any other name is that of a driver, and what it drives
 ============================ =====================================================================
 ``in_simulator.py``          which class stands for a plugin in the simulator
 ``mujoco_system.py``         the joints and sensors of a simulated robot
-``simulated_sensors.py``     … its sensors: poses, forces and torques
+``simulated_sensors.py``     … its sensors: poses, forces and torques, magnetic fields
 ``simulated_sensor.py``      … what they have in common: where they are mounted
 ``simulated_imu.py``         … its inertial measurement units
+``simulated_range.py``       … its range finders
+``sensor_noise.py``          … the noise of all these
 ``mock_system.py``           states follow commands at once, without physics
 ``simulated_base.py``        the body of a simulated robot: moved as a whole, and its truth
 ``serial_base_system.py``    a wheeled robot with a motor board on a serial port

@@ -12,18 +12,24 @@ or on the link of its own name: ``imu``, ``imu_link`` or ``imu_frame``, also for
 ``mujoco_sensor_name``.
 One whose name begins with ``tcp_`` is else at ``tool0`` or ``flange``, which end an arm by the
 names of ROS-Industrial. A joint stands for its child link.
+
+It measures without noise, unless the Gazebo sensor declares some
+(:mod:`amr_description.model.gazebo`)::
+
+    <imu><angular_velocity><z><noise type="gaussian"><stddev>0.001</stddev> …
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from amr_description.control.interfaces import StateInterface
 from amr_description.control.world import World
 from amr_description.errors import HardwareError
+from amr_description.hardware.sensor_noise import SensorNoise
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import GazeboSensor
+from amr_description.model.gazebo import GazeboSensor, Noise
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import Robot
 
@@ -44,6 +50,8 @@ class Mount:
     link: str
     pose: Transform = Transform()
     gazebo: GazeboSensor | None = None
+    parameters: Mapping[str, str] = field(default_factory=dict)
+    """Of the ``<sensor>`` of the ``<ros2_control>`` block."""
 
 
 class SimulatedSensor(ABC):
@@ -51,6 +59,8 @@ class SimulatedSensor(ABC):
 
     interfaces: ClassVar[tuple[str, ...]]
     """All state interfaces of the instrument."""
+    stream: ClassVar[bytes] = b''
+    """Tells its random numbers from those of another instrument of the same sensor."""
 
     def __init__(self, states: Sequence[StateInterface], world: World, mount: Mount) -> None:
         """``states``: those of :attr:`interfaces` that are asked for."""
@@ -58,19 +68,51 @@ class SimulatedSensor(ABC):
         self.world = world
         self.mount = mount
         self._indices = [self.interfaces.index(state.interface) for state in states]
+        self._noisy: list[int] = []
+        self._noise: SensorNoise | None = None
+        if mount.gazebo is not None:
+            self._add_noise(mount.gazebo.noise)
+
+    def _add_noise(self, noises: Iterable[tuple[str, Noise]]) -> None:
+        """Give interfaces noise, as far as they are those of the instrument."""
+        known = [(self.interfaces.index(i), each) for i, each in noises if i in self.interfaces]
+        self._noisy = [index for index, _ in known]
+        if known:
+            # No name contains a 0: no other robot and sensor have the same seed.
+            seed = (*self.world.seed, 0, *self.states[0].prefix.encode(), *self.stream)
+            self._noise = SensorNoise([noise for _, noise in known], seed)
 
     @abstractmethod
     def measure(self, period: float) -> Sequence[float]:
-        """Return a value for each of :attr:`interfaces`; ``period``: since the last call, s."""
+        """
+        Return a value for each of :attr:`interfaces`, without noise.
+
+        Args:
+            period: since the last call, s.
+        """
 
     def read(self, period: float) -> None:
         """Update the states; ``period``: since the previous call, s."""
         values = self.measure(period)
+        if self._noise is not None:
+            values = self.with_noise(values, self._noise, period)
         for state, index in zip(self.states, self._indices, strict=True):
             state.value = values[index]
 
+    def with_noise(
+        self, values: Sequence[float], noise: SensorNoise, period: float
+    ) -> Sequence[float]:
+        """Return values with noise; ``period``: since the last call, s."""
+        measured = noise.apply([values[index] for index in self._noisy], period)
+        noisy = list(values)
+        for index, value in zip(self._noisy, measured, strict=True):
+            noisy[index] = value
+        return noisy
+
     def restart(self) -> None:
-        """Begin anew, after a reset."""
+        """Begin anew, after a reset: the same noise again."""
+        if self._noise is not None:
+            self._noise.restart()
 
 
 def mount_of(info: ComponentInfo, robot: Robot, gazebo: GazeboSensor | None) -> Mount:
@@ -91,7 +133,8 @@ def mount_of(info: ComponentInfo, robot: Robot, gazebo: GazeboSensor | None) -> 
     for name in named[:1] or _guesses(info):
         link = _link_of(name, robot)
         if link:
-            return Mount(link, Transform() if gazebo is None else gazebo.pose, gazebo)
+            pose = Transform() if gazebo is None else gazebo.pose
+            return Mount(link, pose, gazebo, info.parameters)
     links = ', '.join(link.name for link in robot.links)
     if named:
         raise HardwareError(

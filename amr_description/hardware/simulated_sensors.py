@@ -7,6 +7,8 @@ The sensors of a simulated robot: which instruments the names of its state inter
 ``position.x`` … ``orientation.w``        the pose of the sensor in the world
 ``angular_velocity.x`` … ``orientation.w``  an inertial measurement unit
 ``force.x`` … ``torque.z``                a force-torque sensor, see :class:`SimulatedWrench`
+``magnetic_field.x`` … ``.z``             a magnetometer: the field of the world in its axes
+``range``                                 a range finder, :mod:`.simulated_range`
 ========================================= =======================================================
 
 A sensor may have some of them, or those of several instruments. ``orientation.*`` belongs to the
@@ -18,6 +20,7 @@ from dataclasses import dataclass
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import (
+    MAGNETIC_INTERFACES,
     POSE_INTERFACES,
     StateInterface,
     WRENCH_INTERFACES,
@@ -25,6 +28,7 @@ from amr_description.control.interfaces import (
 from amr_description.control.world import World
 from amr_description.errors import HardwareError
 from amr_description.hardware.simulated_imu import SimulatedImu
+from amr_description.hardware.simulated_range import SimulatedRange
 from amr_description.hardware.simulated_sensor import Mount, mount_of, SimulatedSensor
 from amr_description.model.frames import conjugate, multiply, rotate, Transform
 from amr_description.model.gazebo import gazebo_sensors_of
@@ -56,6 +60,7 @@ class SimulatedWrench(SimulatedSensor):
     """
 
     interfaces = WRENCH_INTERFACES
+    stream = b'\0force_torque'
 
     def __init__(self, states: Sequence[StateInterface], world: World, mount: Mount) -> None:
         """Take a sensor."""
@@ -77,6 +82,27 @@ class SimulatedWrench(SimulatedSensor):
             turn = multiply(conjugate(self.world.pose(self._parent).rotation), here)
             force, torque = rotate(turn, force), rotate(turn, torque)
         return [self._sign * value for value in (*force, *torque)]
+
+
+class SimulatedMagnetometer(SimulatedSensor):
+    """The magnetic field of the world in the axes of the sensor, T."""
+
+    interfaces = MAGNETIC_INTERFACES
+    stream = b'\0magnetometer'
+
+    def measure(self, period: float) -> Sequence[float]:
+        """Return the field."""
+        rotation = (self.world.pose(self.mount.link) @ self.mount.pose).rotation
+        return rotate(conjugate(rotation), self.world.magnetic_field)
+
+
+_INSTRUMENTS = (
+    SimulatedPose,
+    SimulatedImu,
+    SimulatedWrench,
+    SimulatedMagnetometer,
+    SimulatedRange,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,11 +149,18 @@ def sensors_of(info: HardwareInfo, world: World, log: Log) -> Sensors:
             continue
         try:
             mount = mount_of(sensor, world.description, mounted.get(sensor.name))
+            found.instruments.extend([kind(states, world, mount) for kind, states in instruments])
         except HardwareError as error:
             text = f"hardware component '{info.name}': {error}; it measures nothing"
             log(Severity.WARN, text)
             continue
-        found.instruments.extend(kind(states, world, mount) for kind, states in instruments)
+        if mount.gazebo is not None and mount.gazebo.has_unknown_reference:
+            log(
+                Severity.WARN,
+                f"hardware component '{info.name}': sensor '{sensor.name}': its <localization> is "
+                f"'{mount.gazebo.localization}'; it is taken as ENU, the axes of the world; NED, "
+                'NWU and CUSTOM are known, too',
+            )
     return found
 
 
@@ -138,7 +171,7 @@ def _instruments(
     names = {state.interface for state in states}
     instruments: list[tuple[type[SimulatedSensor], list[StateInterface]]] = []
     left = list(states)
-    for kind in (SimulatedPose, SimulatedImu, SimulatedWrench):
+    for kind in _INSTRUMENTS:
         if kind is SimulatedPose and not names & {*POSE_INTERFACES[:3]}:
             continue
         measured = [state for state in left if state.interface in kind.interfaces]

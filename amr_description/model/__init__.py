@@ -28,7 +28,8 @@ module                   what it holds
 ``gazebo_classic_sensors.py``  … what Gazebo Classic's plugins in them publish
 ``gazebo_plugins.py``     … the plugins that drive a robot without ros2_control, and what they say
 ``gazebo_drives.py``      … what drives and odometry become
-``gazebo_joints.py``      … what plugins of single joints, and sensors, become
+``gazebo_joints.py``      … what plugins of single joints become
+``gazebo_instruments.py`` … what sensors become whose values are state interfaces
 ``gazebo_builder.py``     … collects it: hardware, controllers, lines to say
 ``gazebo_bridge.py``      … files of ros_gz_bridge: what topics are called in ROS
 ``gazebo_translation.py`` … of a robot: ``translate(robot)``

@@ -7,14 +7,14 @@ A URDF made for Gazebo runs here unchanged: the simulator replaces the plugin an
 parameter files, namespace and remappings from the block.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 import math
 
 from lxml import etree
 
 from amr_description.model.findings import Report
-from amr_description.model.frames import Transform
+from amr_description.model.frames import Quaternion, quaternion_from_rpy, Transform
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.xml_reader import ElementReader, line_of, parse_number, parse_xml
@@ -49,8 +49,31 @@ WORLD_SENSORS = (
 
 GAUSSIAN_TYPES = ('gaussian', 'gaussian_quantized')
 TYPES = ('none', *GAUSSIAN_TYPES)
-IMU_QUANTITIES = ('angular_velocity', 'linear_acceleration')
-"""The quantities of an ``<imu>`` that may have noise, each along x, y and z."""
+_NOISES = tuple(
+    (f'{inside}/{axis}/noise', f'{interface}.{axis}')
+    for inside, interface in (
+        ('imu/angular_velocity', 'angular_velocity'),
+        ('imu/linear_acceleration', 'linear_acceleration'),
+        ('force_torque/force', 'force'),
+        ('force_torque/torque', 'torque'),
+        ('magnetometer', 'magnetic_field'),
+    )
+    for axis in 'xyz'
+)
+"""Where a tag has noise, and the state interface that has it."""
+_FORMER_NOISES = (('rate', 'angular_velocity'), ('accel', 'linear_acceleration'))
+"""Parts of ``<imu><noise>`` before SDF 1.5, each for x, y and z."""
+_HALF = math.sqrt(0.5)
+REFERENCES: Mapping[str, Quaternion] = {
+    'ENU': (0.0, 0.0, 0.0, 1.0),
+    'NED': (_HALF, _HALF, 0.0, 0.0),
+    'NWU': (0.0, 0.0, _HALF, _HALF),
+}
+"""
+``<localization>`` of an IMU → the orientation of that frame in the world, whose x is east and y
+north.
+"""
+_REFERENCE = 'imu/orientation_reference_frame'
 _NEVER_NEGATIVE = (
     'stddev',
     'bias_stddev',
@@ -137,6 +160,11 @@ class Noise:
     """The reported value is a multiple of it; 0: it is not rounded."""
 
     @property
+    def is_some(self) -> bool:
+        """Whether the reported value is another than the true one."""
+        return self != Noise()
+
+    @property
     def has_dynamic_bias(self) -> bool:
         """Whether the bias changes over time."""
         return self.dynamic_bias_stddev > 0.0 and self.dynamic_bias_correlation_time > 0.0
@@ -152,11 +180,27 @@ class GazeboSensor:
     pose: Transform
     line: int
     noise: tuple[tuple[str, Noise], ...] = ()
-    """For an IMU: (state interface, such as ``angular_velocity.x``, its noise)."""
+    """(state interface, such as ``angular_velocity.x``, its noise)."""
+    localization: str = ''
+    """Of an IMU: the frame of its orientation, of :data:`REFERENCES` or CUSTOM; '': the world."""
+    custom_reference: Quaternion = (0.0, 0.0, 0.0, 1.0)
+    """Likewise: the orientation of the frame CUSTOM in the world."""
     frame: str = 'child'
     """Of a force-torque sensor: the axes, those of ``child``, ``parent`` or ``sensor``."""
     measure_direction: str = 'child_to_parent'
     """Likewise: whose wrench on whom it measures, or ``parent_to_child``."""
+
+    @property
+    def reference(self) -> Quaternion | None:
+        """The orientation in the world of the frame of an IMU's orientation; None: the world."""
+        if self.localization == 'CUSTOM':
+            return self.custom_reference
+        return REFERENCES.get(self.localization)
+
+    @property
+    def has_unknown_reference(self) -> bool:
+        """Whether that frame is none that is known."""
+        return self.localization not in ('', 'CUSTOM', *REFERENCES)
 
 
 def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
@@ -182,15 +226,24 @@ def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
     )
 
 
-def _read_imu_noise(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
+def _read_noises(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:
     """Yield the noise of each state interface that has some, such as ``angular_velocity.x``."""
-    for quantity in IMU_QUANTITIES:
-        for axis in 'xyz':
-            element = sensor.find(f'imu/{quantity}/{axis}/noise')
-            if element is not None:
-                noise = _read_noise(element, reader.of(f'{reader.label}: {quantity}.{axis}'))
-                if noise is not None:
-                    yield f'{quantity}.{axis}', noise
+    for path, interface in _NOISES:
+        element = sensor.find(path)
+        if element is not None:
+            noise = _read_noise(element, reader.of(f'{reader.label}: {interface}'))
+            if noise is not None:
+                yield interface, noise
+    former = sensor.find('imu/noise')
+    if former is None:
+        return
+    kind = _noise_type(former)
+    for part, quantity in _FORMER_NOISES:
+        element = former.find(part)
+        if element is not None:
+            noise = _read_noise(element, reader.of(f'{reader.label}: <{part}>'), kind)
+            if noise is not None:
+                yield from ((f'{quantity}.{axis}', noise) for axis in 'xyz')
 
 
 def _read_plugin(element: etree._Element, reader: ElementReader) -> GazeboPlugin:
@@ -250,14 +303,15 @@ def _read_sensor(element: etree._Element, link: str, reader: ElementReader) -> G
             expected='the link that the sensor is mounted on',
         )
     pose = _read_pose(element, reader)
-    noise = tuple(_read_imu_noise(element, reader))
     return GazeboSensor(
         name=name,
         type=element.get('type', ''),
         link=link,
         pose=pose,
         line=line_of(element),
-        noise=noise,
+        noise=tuple(_read_noises(element, reader)),
+        localization=element.findtext(f'{_REFERENCE}/localization', '').strip(),
+        custom_reference=_read_custom(element, reader),
         frame=element.findtext('force_torque/frame', 'child').strip(),
         measure_direction=element.findtext(
             'force_torque/measure_direction', 'child_to_parent'
@@ -275,8 +329,26 @@ def _read_pose(element: etree._Element, reader: ElementReader) -> Transform:
     return Transform.from_xyz_rpy((x, y, z), (rpy[0], rpy[1], rpy[2]))
 
 
-def _read_noise(element: etree._Element, reader: ElementReader) -> Noise | None:
-    kind = element.get('type', 'none')
+def _read_custom(element: etree._Element, reader: ElementReader) -> Quaternion:
+    text = element.findtext(f'{_REFERENCE}/custom_rpy', '0 0 0')
+    values = [parse_number(word) for word in text.split()]
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        reader.error(
+            element, '<custom_rpy>', found=quote(text.strip()), expected='3 numbers, finite'
+        )
+        return (0.0, 0.0, 0.0, 1.0)
+    roll, pitch, yaw = values
+    return quaternion_from_rpy(roll, pitch, yaw)
+
+
+def _noise_type(element: etree._Element) -> str:
+    """Return the type, an attribute, or as before SDF 1.5 an element."""
+    return element.get('type') or element.findtext('type', '').strip() or 'none'
+
+
+def _read_noise(element: etree._Element, reader: ElementReader, kind: str = '') -> Noise | None:
+    """Return what a tag says; ``kind``: of noise, '' as the tag itself says."""
+    kind = kind or _noise_type(element)
     if kind not in TYPES:
         reader.error(
             element, 'type of <noise>', found=quote(kind), expected=f'one of {", ".join(TYPES)}'

@@ -15,7 +15,6 @@ from amr_description.model.hardware_info import (
     ComponentType,
     HardwareInfo,
     HardwareType,
-    IMU_INTERFACES,
     InterfaceInfo,
 )
 from amr_description.model.robot import held_without_commands, Joint, Limit, Robot, WORLD_LINK
@@ -145,7 +144,8 @@ class Builder:
         self.lacking: list[tuple[str, str, str]] = []
         """What is not simulated: sensor or plugin, its name, its type or library."""
         self.controllers: list[PluginController] = []
-        self.imus: list[str] = []
+        self.instruments: dict[str, tuple[tuple[str, ...], Mapping[str, str]]] = {}
+        """The state interfaces and parameters of sensors, by name."""
         self._commands: dict[str, tuple[str, ...]] = {}
         self._truths: list[str] = []
         self._moves_base = False
@@ -302,10 +302,14 @@ class Builder:
             for joint in self.robot.joints
             if joint.has_position and (joint.name in self._commands or not self.is_controlled)
         )
-        measured = tuple(InterfaceInfo(each) for each in IMU_INTERFACES)
         sensors = tuple(
-            ComponentInfo(name, ComponentType.SENSOR, state_interfaces=measured)
-            for name in self.imus
+            ComponentInfo(
+                name,
+                ComponentType.SENSOR,
+                state_interfaces=tuple(InterfaceInfo(each) for each in interfaces),
+                parameters=parameters,
+            )
+            for name, (interfaces, parameters) in self.instruments.items()
         )
         if not self.controllers or not (joints or sensors):
             return ()

@@ -1,27 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What Gazebo's plugins of single joints become, :data:`JOINTS`, and its sensors: :func:`add_imu`.
+What Gazebo's plugins of single joints become: :data:`JOINTS`.
 """
 
 from collections.abc import Callable, Mapping
 import math
 from typing import Any
 
-from lxml import etree
-
-from amr_description.model.gazebo import gazebo_sensors_of
 from amr_description.model.gazebo_builder import (
     Builder,
     gz_topic,
-    HIGHEST_RATE,
     LEAST_RATE,
     node_name,
     origin_of,
 )
+from amr_description.model.gazebo_instruments import add_wrench
 from amr_description.model.gazebo_plugins import PluginElement
-from amr_description.model.robot import Robot
-from amr_description.model.xml_reader import parse_number
 from amr_description.text import quote, quote_all
 
 
@@ -133,62 +128,34 @@ def _transmissions(builder: Builder, plugin: PluginElement) -> None:
     )
 
 
-def add_imu(builder: Builder, sensor: etree._Element, link: str) -> bool:
-    """Add the broadcaster of a unit; return False if it is no sound one."""
-    name = sensor.get('name', '')
-    if name in builder.imus or not builder.robot.has_link(link):
-        return False
-    builder.imus.append(name)
-    inside = sensor.find('plugin')
-    plugin = PluginElement(inside if inside is not None else sensor, builder.notes)
-    if inside is not None and plugin.is_classic:
-        topic = plugin.topic('~/out', 'topicName')
-        frame = plugin.text('frame_name', 'frameName')
-        node = node_name(plugin.name, node_name(name, 'imu'))
-    else:
-        topic, node = gz_topic(PluginElement(sensor), 'topic', 'imu'), node_name(name, 'imu')
-        frame = PluginElement(sensor).text('gz_frame_id', 'ignition_frame_id')
-        topic = 'imu' if topic == '__default_topic__' else topic
-    rate = parse_number((sensor.findtext('update_rate') or '').strip())
-    parameters: dict[str, Any] = {
-        'sensor_name': name,
-        'frame_id': frame or link,
-        **_imu_covariances(builder.robot, name),
-    }
-    if rate > 0.0:
-        parameters['update_rate'] = max(1, round(min(rate, HIGHEST_RATE)))
-    if rate > HIGHEST_RATE:
-        builder.notes.append(
-            f'sensor {quote(name)} asks for {rate:g} Hz, and is published at {HIGHEST_RATE} Hz, '
-            'the most that sensors have here'
-        )
-    builder.add(
-        'imu_sensor_broadcaster/IMUSensorBroadcaster',
-        parameters,
-        {'~/imu': topic},
-        name=node,
-        origin=f'sensor {quote(name)}',
-        namespace=plugin.namespace if inside is not None else '',
+def _force_torque(builder: Builder, plugin: PluginElement) -> None:
+    """Classic's: the wrench in a joint."""
+    name = plugin.text('joint_name', 'jointName')
+    body = plugin.text('body_name', 'bodyName')
+    above = None
+    if builder.robot.has_joint(name):
+        above = builder.robot.joint(name)
+    elif builder.robot.has_link(body):
+        above = builder.robot.parent_joint(body)
+    if above is None:
+        plugin.note(f'it is left out: there is no joint {quote(name or body)}')
+        return
+    if plugin.number('gaussian_noise', 'gaussianNoise', default=0.0):
+        plugin.note('its <gaussian_noise> is left out; <noise> of a sensor is simulated')
+    add_wrench(
+        builder,
+        node_name(plugin.name, 'force_torque_sensor'),
+        above.child,
+        plugin.text('frame_name', 'frameName') or above.child,
+        plugin.topic('wrench', 'topicName'),
+        plugin.number('update_rate', 'updateRate', default=0.0),
+        plugin.namespace,
     )
-    return True
-
-
-def _imu_covariances(robot: Robot, name: str) -> dict[str, list[float]]:
-    """Return the variances of a unit's noise, as Gazebo's plugins fill them in."""
-    noises = next((dict(each.noise) for each in gazebo_sensors_of(robot) if each.name == name), {})
-    found = {}
-    for quantity in ('angular_velocity', 'linear_acceleration'):
-        axes = [noises.get(f'{quantity}.{axis}') for axis in 'xyz']
-        deviations = [0.0 if noise is None else noise.stddev for noise in axes]
-        if any(deviations):
-            matrix = [0.0] * 9
-            matrix[0], matrix[4], matrix[8] = (value * value for value in deviations)
-            found[f'static_covariance_{quantity}'] = matrix
-    return found
 
 
 JOINTS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'gazebo-ros-control': _transmissions,
+    'gazebo-ros-ft-sensor': _force_torque,
     'gazebo-ros-joint-state-publisher': _joint_states,
     'joint-controller': _joint_velocity,
     'joint-position-controller': _joint_position,

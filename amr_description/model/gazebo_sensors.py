@@ -86,6 +86,7 @@ _LACKING = (
 _TYPES = (*WORLD_SENSORS, *SERVED_ELSEWHERE, *_LACKING)
 _FRAMES = ('gz_frame_id', 'ignition_frame_id', 'frame_id')
 """New Gazebo's names of the frame, the newest first; SDF's last."""
+_RANGE_FINDERS = ('gpu_lidar', 'lidar', 'gpu_ray', 'ray')
 _DEFAULT_TOPIC = '__default_topic__'
 _SIMILAR = 0.6
 
@@ -132,6 +133,26 @@ def read_sensors(
     sound = _with_own_topics(sensors)
     findings = tuple(each for tag in tags for each in tag.findings)
     return RobotSensors(tuple(sound), findings, tuple(lacking))
+
+
+def range_finder_of(robot: Robot, name: str) -> Lidar | None:
+    """
+    Return the Gazebo sensor that stands for a range finder of ``<ros2_control>``, without topics.
+
+    Args:
+        robot: the description.
+        name: of the sensor, the same in both.
+
+    Returns:
+        None if there is no such one, or a faulty one, which is reported elsewhere.
+    """
+    xml = parse_xml(robot.text, robot.source, raise_error_of(robot.text, strict=False))
+    for element, link in () if xml is None else sensors_of(xml):
+        if element.get('name') == name and element.get('type', '') in _RANGE_FINDERS:
+            tag = SensorTag(element, link.strip(), robot, link_poses(robot))
+            lidar = lidar_of(tag, tag.mount(tag.link))
+            return None if tag.is_faulty else lidar
+    return None
 
 
 def has_sensors(gazebo: etree._Element) -> bool:

@@ -17,7 +17,8 @@ joint state publisher                        ``joint_state_broadcaster/JointStat
 JointPositionController, JointController     ``amr_description/GazeboJointCommand``
 JointTrajectoryController                    ``joint_trajectory_controller/…``
 ros_control of ROS 1, with <transmission>    none: its joints can be commanded by ros2_control
-``<sensor type="imu">``                      ``imu_sensor_broadcaster/IMUSensorBroadcaster``
+``<sensor>``: imu, magnetometer, …           a broadcaster
+                                             (:mod:`amr_description.model.gazebo_instruments`)
 other sensors                                none: :mod:`amr_description.model.gazebo_sensors`
 ============================================ ====================================================
 
@@ -31,7 +32,8 @@ What the ``<ros2_control>`` blocks have stays theirs: joints, and sensors by the
 
 from amr_description.model.gazebo_builder import Builder, GazeboTranslation
 from amr_description.model.gazebo_drives import DRIVES, FIRST
-from amr_description.model.gazebo_joints import add_imu, JOINTS
+from amr_description.model.gazebo_instruments import add_instrument
+from amr_description.model.gazebo_joints import JOINTS
 from amr_description.model.gazebo_physics import SCRUBBING
 from amr_description.model.gazebo_plugins import plugins_of, sensors_of
 from amr_description.model.gazebo_sensors import read_sensors, SERVED_ELSEWHERE
@@ -67,8 +69,8 @@ def translate(robot: Robot) -> GazeboTranslation:
         if sensor.get('name', '') in builder.sensors:
             continue  # ros2_control's, which says itself what it cannot do
         kind = sensor.get('type', '')
-        if kind not in SERVED_ELSEWHERE or not robot.has_link(link):
+        if kind not in SERVED_ELSEWHERE or not (robot.has_link(link) or robot.has_joint(link)):
             continue  # read above, where its fault is found
-        if kind != 'imu' or not add_imu(builder, sensor, link):
+        if not add_instrument(builder, sensor, link):
             builder.lacking.append(('sensor', sensor.get('name', ''), kind))
     return builder.build(seeing.sensors)

@@ -18,6 +18,10 @@ IMU_INTERFACES = (
     *(f'linear_acceleration.{axis}' for axis in 'xyz'),
 )
 """The state interfaces of an inertial measurement unit: a unit quaternion, rad/s, m/s²."""
+WRENCH_INTERFACES = (*(f'force.{axis}' for axis in 'xyz'), *(f'torque.{axis}' for axis in 'xyz'))
+"""The state interfaces of a force-torque sensor: N, N·m."""
+MAGNETIC_INTERFACES = tuple(f'magnetic_field.{axis}' for axis in 'xyz')
+"""The state interfaces of a magnetometer: T."""
 
 
 class HardwareType(StrEnum):

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """One simulated robot, by the names of its URDF: what a hardware component sees of the world."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+import math
 
 import mujoco
 import numpy as np
@@ -13,6 +14,7 @@ from amr_description.errors import SimulationError
 from amr_description.model.frames import (
     conjugate,
     cross,
+    matrix_from_quaternion,
     multiply,
     rotate,
     Transform,
@@ -24,7 +26,12 @@ from amr_description.sim.actuator_modes import RobotActuators
 from amr_description.sim.base_servo import command_base_servo
 from amr_description.sim.engine import Engine
 from amr_description.sim.joint_group import MujocoJointGroup
+from amr_description.sim.rays import Mask, RayScene
 from amr_description.sim.robot_spec import RobotSpec, root_joint
+
+GAZEBO_FIELD = (5.5645e-6, 22.8758e-6, -42.3884e-6)
+"""T, along x, y, z of the world: SDF's default ``<magnetic_field>``."""
+_MUJOCO_FIELD = (0.0, -0.5, 0.0)
 
 
 class RobotView:
@@ -44,6 +51,7 @@ class RobotView:
         pose: Transform,
         log: Log,
         seed: int = 0,
+        ray_scene: Callable[[], RayScene] | None = None,
     ) -> None:
         """
         Bind a robot that has just been spawned.
@@ -56,6 +64,7 @@ class RobotView:
             pose: Where it was spawned: transform from its root link to the world.
             log: Gets what the joints' commands cause.
             seed: Of the world.
+            ray_scene: What can be seen, where it is now; None: nothing.
         """
         self.name = name
         self.seed = (seed, *name.encode())
@@ -70,7 +79,9 @@ class RobotView:
         self._spawn_pose = pose
         self._log = log
         self._engine = engine
+        self._ray_scene = ray_scene
         self._bodies: dict[str, int] = {}
+        self._masks: dict[int, Mask] = {}
         self._generation = -1
         self._initial_states = model.initial_states
         self._actuators = RobotActuators(engine, name, model.commands)
@@ -200,6 +211,46 @@ class RobotView:
         back = conjugate(frame.rotation)
         return Wrench(force=rotate(back, force), torque=rotate(back, (x, y, z)))
 
+    @property
+    def magnetic_field(self) -> Vector:
+        """
+        The magnetic field, T: ``<option magnetic>`` of the world's file, or Gazebo's.
+
+        A file that has MuJoCo's own default, half a gauss along -y without a unit, has none.
+        """
+        field = _vector(self._engine.model.opt.magnetic)
+        return GAZEBO_FIELD if field == _MUJOCO_FIELD else field
+
+    def distances(
+        self, link: str, mount_pose: Transform, directions: Sequence[Vector], farthest: float
+    ) -> list[float]:
+        """
+        Return how far away something is seen, m, in each direction; inf where nothing is.
+
+        Args:
+            link: The link that the observer is fixed to; what is rigid with it is not seen.
+            mount_pose: Transform from the observer to the link.
+            directions: Unit vectors in its axes.
+            farthest: What is farther away, m, need not be seen.
+
+        Raises:
+            SimulationError: There is no such link.
+        """
+        body = self.body(link)
+        if self._ray_scene is None:
+            return [math.inf] * len(directions)
+        scene = self._ray_scene()
+        mask = self._masks.get(body)
+        if mask is None:
+            mask = scene.mask(without=scene.geoms_fixed_to(self.name, body))
+            self._masks[body] = mask
+        pose = self.pose(link) @ mount_pose
+        turn = np.array(matrix_from_quaternion(pose.rotation))
+        hits = scene.cast(
+            np.array(pose.translation), np.array(directions) @ turn.T, mask=mask, cutoff=farthest
+        )
+        return [each if each >= 0.0 else math.inf for each in hits.distances.tolist()]
+
     def height_index(self) -> int | None:
         """Return the index of the root's height in ``qpos``; None: the robot stands fixed."""
         model = self._engine.model
@@ -212,6 +263,7 @@ class RobotView:
         """Return MuJoCo's id of a link, good for one generation. Raises SimulationError."""
         if self._generation != self._engine.generation:
             self._bodies.clear()
+            self._masks.clear()
             self._generation = self._engine.generation
         body = self._bodies.get(link)
         if body is None:

@@ -189,7 +189,8 @@ class MujocoWorld:
         def put(pose: Transform) -> RobotView:
             self._add_rollers(name, model)
             self._attach(name, spec, pose, contacts)
-            return RobotView(self.engine, name, robot, model, pose, self._log, self._seed)
+            others = self._log, self._seed, self.ray_scene
+            return RobotView(self.engine, name, robot, model, pose, *others)
 
         view = put(pose)
         overlap = find_overlap(self.engine, name)

@@ -8,7 +8,7 @@ from statistics import fmean
 import numpy as np
 import pytest
 
-from amr_description.hardware.simulated_imu import SensorNoise
+from amr_description.hardware.sensor_noise import SensorNoise
 from amr_description.model.gazebo import Noise
 
 COUNT = 20_000

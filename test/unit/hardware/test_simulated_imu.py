@@ -11,8 +11,9 @@ from fixtures.sim.fake_world import cell, FakeWorld, info_of, PERIOD, URDF
 import pytest
 
 from amr_description.control.interfaces import IMU_INTERFACES
+from amr_description.control.world import ImuReading
 from amr_description.hardware.mujoco_system import MujocoSystem
-from amr_description.model.frames import Transform
+from amr_description.model.frames import rotate, Transform
 from amr_description.model.ros2_control_tag import hardware_of
 
 
@@ -195,3 +196,57 @@ def test_after_a_reset_the_noise_is_repeated():
         noisy.system.reset(0)
         runs.append(noisy.measure())
     assert runs[0] == runs[1]
+
+
+LOOKS_EAST = (0.0, 0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ('inside', 'x_axis', 'z_axis'),
+    [
+        ('<localization>ENU</localization>', (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+        # East is the second axis of NED, and up is against its third.
+        ('<localization>NED</localization>', (0.0, 1.0, 0.0), (0.0, 0.0, -1.0)),
+        ('<localization>NWU</localization>', (0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+        (
+            '<localization>CUSTOM</localization><custom_rpy>0 0 1.5707963267948966</custom_rpy>',
+            (0.0, -1.0, 0.0),
+            (0.0, 0.0, 1.0),
+        ),
+    ],
+)
+def test_the_orientation_is_relative_to_the_frame_that_is_named(inside, x_axis, z_axis):
+    frame = f'<imu><orientation_reference_frame>{inside}</orientation_reference_frame></imu>'
+    mount = f'<gazebo reference="b"><sensor name="imu" type="imu">{frame}</sensor></gazebo>'
+    system, world = imu_of(with_imu(IMU_INTERFACES, mount))
+    world.reading = ImuReading(LOOKS_EAST, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
+    system.read(0, PERIOD)
+    x, y, z, w, *others = [s.value for s in system.state_interfaces()][4:]
+    assert rotate((x, y, z, w), (1.0, 0.0, 0.0)) == pytest.approx(x_axis)
+    assert rotate((x, y, z, w), (0.0, 0.0, 1.0)) == pytest.approx(z_axis)
+    assert others == [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
+    assert system.log.lines == []
+
+
+def test_a_frame_of_the_orientation_that_is_not_known_is_told():
+    inside = '<orientation_reference_frame><localization>GRAV_UP</localization>'
+    mount = '<gazebo reference="b"><sensor name="imu" type="imu"><imu>'
+    mount += f'{inside}</orientation_reference_frame></imu></sensor></gazebo>'
+    system, _ = imu_of(with_imu(IMU_INTERFACES, mount))
+    ((_, line),) = system.log.lines
+    assert "its <localization> is 'GRAV_UP'; it is taken as ENU" in line
+
+
+def test_noise_as_before_sdf_1_5_is_that_of_all_axes():
+    old = (
+        '<imu><noise><type>gaussian</type><rate><mean>5</mean><stddev>0</stddev></rate>'
+        '<accel><mean>0</mean><stddev>0</stddev><bias_mean>7</bias_mean></accel></noise></imu>'
+    )
+    mount = f'<gazebo reference="b"><sensor name="imu" type="imu">{old}</sensor></gazebo>'
+    system, world = imu_of(with_imu(IMU_INTERFACES, mount))
+    system.read(0, PERIOD)
+    values = [s.value for s in system.state_interfaces()][8:]
+    exact = (*world.reading.angular_velocity, *world.reading.linear_acceleration)
+    offsets = [a - b for a, b in zip(values, exact, strict=True)]
+    assert offsets[:3] == pytest.approx([5.0] * 3)
+    assert [abs(each) for each in offsets[3:]] == pytest.approx([7.0] * 3)

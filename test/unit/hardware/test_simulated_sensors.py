@@ -3,6 +3,7 @@
 """Poses and force-torque sensors in the ``<ros2_control>`` block of a simulated robot."""
 
 import math
+from statistics import fmean, pstdev
 
 from fixtures.sim.arm import ARM, arm, GRAVITY, load_of
 from fixtures.sim.driving import Lines
@@ -11,12 +12,14 @@ import pytest
 
 from amr_description.control.interfaces import (
     IMU_INTERFACES,
+    MAGNETIC_INTERFACES,
     POSE_INTERFACES,
     WRENCH_INTERFACES,
 )
 from amr_description.hardware.mujoco_system import MujocoSystem
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.sim.world import MujocoWorld
 
 QUARTER = quaternion_from_yaw(math.pi / 2)
 
@@ -190,3 +193,69 @@ def test_a_sensor_without_a_frame_measures_nothing_and_says_so():
         '<param name="frame_id">LINK</param> in the sensor, with one of: base, a, b, c; it '
         'measures nothing'
     )
+
+
+# --- magnetic fields, and noise ----------------------------------------------------------------
+
+
+def test_a_magnetometer_measures_the_field_of_the_world_in_its_own_axes():
+    gazebo = (
+        '<gazebo reference="b"><sensor name="tcp" type="magnetometer">'
+        '<pose>0 0 0 3.141592653589793 0 0</pose></sensor></gazebo>'
+    )
+    urdf = with_sensor(MAGNETIC_INTERFACES, gazebo=gazebo, inside='')
+    world = FakeWorld(urdf)
+    world.poses = {'b': Transform((1.0, 2.0, 3.0), QUARTER)}
+    values, lines = measured(urdf, world=world)
+    # b looks along y of the world; the sensor lies on its back in b.
+    x, y, z = world.magnetic_field
+    assert [*values.values()] == pytest.approx([y, x, -z])
+    assert lines == []
+
+
+@pytest.mark.parametrize(
+    ('option', 'field'),
+    [
+        ('', (5.5645e-6, 22.8758e-6, -42.3884e-6)),
+        ('<option magnetic="1e-5 0 -4e-5"/>', (1e-5, 0.0, -4e-5)),
+    ],
+)
+def test_the_field_of_the_world_is_that_of_its_file_or_gazebos(tmp_path, option, field):
+    path = tmp_path / 'world.xml'
+    path.write_text(f'<mujoco>{option}<worldbody/></mujoco>')
+    assert MujocoWorld(str(path)).spawn('arm', ARM).magnetic_field == field
+
+
+NOISY = {
+    'force_torque': ('jb', WRENCH_INTERFACES, '<{0}><{1}><z>{2}</z></{1}></{0}>', 'force'),
+    'magnetometer': ('b', MAGNETIC_INTERFACES, '<{0}><z>{2}</z></{0}>', 'magnetic_field'),
+}
+
+
+@pytest.mark.parametrize('kind', NOISY)
+def test_noise_and_bias_are_those_of_the_gazebo_sensor_and_begin_anew_with_a_reset(kind):
+    place, interfaces, inside, quantity = NOISY[kind]
+    noise = '<mean>0.5</mean><stddev>0.1</stddev><bias_mean>3</bias_mean>'
+    noise = f'<noise type="gaussian">{noise}</noise>'
+    gazebo = f'<gazebo reference="{place}"><sensor name="tcp" type="{kind}">'
+    gazebo += f'{inside.format(kind, "force", noise)}</sensor></gazebo>'
+    urdf = with_sensor(interfaces, gazebo=gazebo, inside='')
+    exact, _ = measured(with_sensor(interfaces))
+    system = MujocoSystem(info_of(urdf), Lines(), FakeWorld(urdf))
+    (noisy,) = [s for s in system.state_interfaces() if s.name == f'tcp/{quantity}.z']
+
+    def run():
+        values = []
+        for _ in range(300):
+            system.read(0, PERIOD)
+            values.append(noisy.value)
+        return values
+
+    first = run()
+    others = [s for s in system.state_interfaces() if s.prefix == 'tcp' and s is not noisy]
+    assert [s.value for s in others] == [exact[s.interface] for s in others]
+    assert pstdev(first) == pytest.approx(0.1, rel=0.2)
+    offset = fmean(first) - exact[f'{quantity}.z']
+    assert min(abs(offset - 3.5), abs(offset + 2.5)) < 0.03
+    system.reset(0)
+    assert run() == first

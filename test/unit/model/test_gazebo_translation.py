@@ -304,6 +304,62 @@ def test_inertial_measurement_units(inside, name, topic, frame):
     assert not found.not_simulated
 
 
+def test_a_magnetometer():
+    noise = '<noise type="gaussian"><stddev>2e-7</stddev></noise>'
+    found = translated(
+        reference=f"""<sensor name="compass" type="magnetometer"><update_rate>50</update_rate>
+        <topic>/model/amr/mag</topic><magnetometer><x>{noise}</x></magnetometer></sensor>"""
+    )
+    (compass,) = found.controllers
+    assert compass.type == 'magnetometer_broadcaster/MagnetometerBroadcaster'
+    assert (compass.name, compass.topics) == ('compass', {'~/magnetic_field': 'mag'})
+    covariance = compass.parameters['static_covariance']
+    assert covariance == pytest.approx([4e-14] + [0.0] * 8)
+    (sensor,) = found.robot.plugin_hardware[0].sensors
+    assert [each.name for each in sensor.state_interfaces] == [
+        f'magnetic_field.{axis}' for axis in 'xyz'
+    ]
+    assert not found.not_simulated
+
+
+@pytest.mark.parametrize(
+    ('inside', 'frame'),
+    [
+        ('', 'child'),
+        ('<force_torque><frame>parent</frame></force_torque>', 'parent'),
+        ('<gz_frame_id>tool</gz_frame_id>', 'tool'),
+    ],
+)
+def test_a_force_torque_sensor_of_a_joint(inside, frame):
+    urdf = f"""<robot name="r"><link name="parent"/><link name="child"/>
+        <joint name="wrist" type="fixed"><parent link="parent"/><child link="child"/></joint>
+        <gazebo reference="wrist"><sensor name="ft" type="force_torque">{inside}</sensor></gazebo>
+        </robot>"""
+    found = translate(parse(urdf, 'r.urdf'))
+    (broadcaster,) = found.controllers
+    assert broadcaster.parameters == {'sensor_name': 'ft', 'frame_id': frame}
+    assert broadcaster.topics == {'~/wrench': 'ft/force_torque'}
+    (sensor,) = found.robot.plugin_hardware[0].sensors
+    assert len(sensor.state_interfaces) == 6
+    assert not found.not_simulated
+
+
+def test_a_force_torque_sensor_of_classic():
+    urdf = """<robot name="r"><link name="parent"/><link name="child"/>
+        <joint name="wrist" type="fixed"><parent link="parent"/><child link="child"/></joint>
+        <gazebo><plugin name="ft" filename="libgazebo_ros_ft_sensor.so"><ros>
+        <namespace>/arm</namespace><remapping>wrench:=force</remapping></ros>
+        <update_rate>50</update_rate><joint_name>%s</joint_name></plugin></gazebo></robot>"""
+    found = translate(parse(urdf % 'wrist', 'r.urdf'))
+    (broadcaster,) = found.controllers
+    assert broadcaster.names_of_topics('') == {'~/wrench': '/arm/force'}
+    assert broadcaster.parameters == {'sensor_name': 'ft', 'frame_id': 'child', 'update_rate': 50}
+    (sensor,) = found.robot.plugin_hardware[0].sensors
+    assert sensor.parameters == {'link': 'child'}
+    lost = translate(parse(urdf % 'elbow', 'r.urdf'))
+    assert lost.notes == ('plugin "ft": it is left out: there is no joint "elbow"',)
+
+
 def test_a_rate_above_the_highest_is_told():
     found = translated(
         reference='<sensor name="unit" type="imu"><update_rate>1000</update_rate></sensor>'
