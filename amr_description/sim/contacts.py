@@ -74,43 +74,52 @@ class ContactReader:
         engine = self._world.engine
         if self._generation != engine.generation:
             self._bind()
-        data = engine.data
-        found: dict[tuple[int, int], list[ContactPoint]] = {}
+        touching = engine.data.contact
         # Each list is read once as a whole: one element of a MuJoCo array costs 0.3 µs.
-        touching = data.contact
+        geoms = touching.geom.tolist() if engine.data.ncon else []
         own = self._own
-        for index, (first, second) in enumerate(touching.geom.tolist() if data.ncon else ()):
-            for mine, its in ((first, second), (second, first)):
-                if mine in own:
-                    point = self._point(index, pushed=mine == second)
-                    if point is not None:
-                        found.setdefault((mine, its), []).append(point)
-                    break
+        mine = [index for index, pair in enumerate(geoms) if not own.isdisjoint(pair)]
+        if not mine:
+            return ()
+        positions, frames = touching.pos.tolist(), touching.frame.tolist()
+        depths = touching.dist.tolist()
+        found: dict[tuple[int, int], list[ContactPoint]] = {}
+        for index in mine:
+            first, second = geoms[index]
+            # The normal points to the second geom, and that is the one that the force acts on.
+            pair, sign = ((first, second), -1.0) if first in own else ((second, first), 1.0)
+            force = self._force_at(index, frames[index], sign)
+            if force is not None:
+                x, y, z = positions[index]
+                nx, ny, nz = (sign * value for value in frames[index][:3])
+                point = ContactPoint((x, y, z), (nx, ny, nz), force, max(0.0, -depths[index]))
+                found.setdefault(pair, []).append(point)
         return tuple(
-            Contact(self._name(mine), mine + 1, self._name(its), its + 1, tuple(points))
-            for (mine, its), points in found.items()
+            Contact(self._name(its), its + 1, self._name(other), other + 1, tuple(points))
+            for (its, other), points in found.items()
         )
 
-    def _point(self, index: int, *, pushed: bool) -> ContactPoint | None:
+    def _force_at(self, index: int, axes: Sequence[float], sign: float) -> Vector | None:
         """
-        Return a contact of MuJoCo; None if it has no force.
+        Return the force of a contact of MuJoCo in the world, N; None: it has none.
 
         Args:
             index: Its number.
-            pushed: Whether the sensor's geom is the second one, towards which the normal points,
-                and on which the force acts.
+            axes: Normal and tangents by rows.
+            sign: 1: on the second geom; -1: on the first one.
         """
-        engine, force = self._world.engine, self._force
-        mujoco.mj_contactForce(engine.model, engine.data, index, force)
-        if force[0] <= 0.0:
+        mujoco.mj_contactForce(
+            self._world.engine.model, self._world.engine.data, index, self._force
+        )
+        normal, along, across, *_ = self._force.tolist()
+        if normal <= 0.0:
             return None
-        contact = engine.data.contact[index]
-        axes = contact.frame.reshape(3, 3)
-        sign = 1.0 if pushed else -1.0
-        x, y, z = (sign * axes[0]).tolist()
-        fx, fy, fz = (sign * (force[:3] @ axes)).tolist()
-        px, py, pz = contact.pos.tolist()
-        return ContactPoint((px, py, pz), (x, y, z), (fx, fy, fz), max(0.0, -float(contact.dist)))
+        nx, ny, nz, ax, ay, az, bx, by, bz = axes
+        return (
+            sign * (normal * nx + along * ax + across * bx),
+            sign * (normal * ny + along * ay + across * by),
+            sign * (normal * nz + along * az + across * bz),
+        )
 
     def _bind(self) -> None:
         """Look up the geoms of the collisions; repeated after every recompile."""

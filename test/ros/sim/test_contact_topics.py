@@ -64,8 +64,8 @@ def start():
     rclpy.init(args=[])
     hosts = []
 
-    def start(height, frame='', rate=0.0, collisions=(), **others):
-        mount = SensorMount('touch', 'base', frame=frame, rate=rate)
+    def start(height, frame='', rate=0.0, collisions=(), link='base', **others):
+        mount = SensorMount('touch', link, frame=frame, rate=rate)
         hosts.append(Host(ContactSensor(mount, collisions, **others), height))
         return hosts[-1]
 
@@ -134,4 +134,10 @@ def test_what_a_sensor_names_and_is_not_there_is_told(start):
     assert host.lines == [
         'robot \'r\': sensor "touch": there is no collision "bonnet"; there are: box_collision; '
         'it feels all of link "base"'
+    ]
+
+
+def test_a_sensor_on_a_link_that_touches_nothing_is_told(start):
+    assert start(0.1, link='foot').lines == [
+        'robot \'r\': sensor "touch" feels nothing: link "foot" has no <collision> that is simulated'
     ]
