@@ -138,6 +138,5 @@ def test_what_a_sensor_names_and_is_not_there_is_told(start):
 
 
 def test_a_sensor_on_a_link_that_touches_nothing_is_told(start):
-    assert start(0.1, link='foot').lines == [
-        'robot \'r\': sensor "touch" feels nothing: link "foot" has no <collision> that is simulated'
-    ]
+    (line,) = start(0.1, link='foot').lines
+    assert line.endswith('feels nothing: link "foot" has no <collision> that is simulated')
