@@ -107,6 +107,8 @@ class Loop:
         self._step_request: StepRequest | None = None
         self.managers: list[ControllerManager] = []
         """One for each robot; changed by queued calls only."""
+        self.latest_tick: int | None = None
+        """When managers have last ticked, ns; the end of a step is published before its tick."""
 
     @property
     def time(self) -> int:
@@ -151,7 +153,7 @@ class Loop:
 
     def tick(self) -> None:
         """Tick the managers due now, and publish."""
-        time = self.time
+        time = self.latest_tick = self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
             if manager.is_due(time):
@@ -211,7 +213,7 @@ class Loop:
 
     def _jump(self, notify: Callable[[ControllerManager, int], None]) -> None:
         self._cancel_step()
-        time = self.time
+        self.latest_tick, time = None, self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
             notify(manager, time)

@@ -174,7 +174,9 @@ class Simulation:
             if parameters.paused:
                 self.loop_thread.loop.pause()
             context = LoopContext(self.loop_thread, publisher, self.logs)
-            self._sensors = SensorManager(node, publisher, self.world, self.log, self._is_paced)
+            self._sensors = SensorManager(
+                node, publisher, self.world, self.log, self._is_paced, self._has_ticked
+            )
             self._sensors.on_first = self._serve_measurements
             self.entities = self._entity_manager(context, ground_truth, ros_args)
         except Exception:
@@ -214,6 +216,10 @@ class Simulation:
             return not (loop.is_running or loop.is_stepping)
 
         MeasureService(self._node, self._sensors, self.loop_thread.submit, is_standing_still)
+
+    def _has_ticked(self, time: int) -> bool:
+        """Whether the controllers have ticked at ``time``, ns: not yet at the end of a step."""
+        return self.loop_thread.loop.latest_tick == time
 
     def start(self) -> None:
         """Start the control thread; time begins to pass, unless paused."""

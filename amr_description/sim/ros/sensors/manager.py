@@ -44,6 +44,7 @@ class SensorManager:
         world: MujocoWorld,
         log: Log,
         is_paced: Callable[[], bool],
+        has_ticked: Callable[[int], bool] = lambda time: True,
     ) -> None:
         """
         Measure and publish from now on, at the end of control cycles.
@@ -54,12 +55,15 @@ class SensorManager:
             world: The simulated world.
             log: Of the simulator.
             is_paced: See :attr:`SensorContext.is_paced`.
+            has_ticked: Whether the controllers have ticked at a time, ns. Sensors measure at
+                ticks, so that the odometry of their instant goes out before.
         """
         self._node = node
         self._loop_publisher = loop_publisher
         self._world = world
         self._log = log
         self._is_paced = is_paced
+        self._has_ticked = has_ticked
         self._worker = SensorWorker(loop_publisher, log, is_paced)
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
@@ -132,11 +136,14 @@ class SensorManager:
         if not self._robots:
             return
         is_requested, self._is_requested = self._is_requested, False
+        is_tick = self._has_ticked(time)
+        if not (is_tick or is_requested):
+            return
         present = self._world.names
         for name, sensors in self._robots.items():
             if name in present:
                 for schedule, topics in sensors:
-                    is_due = schedule.is_due(time)
+                    is_due = is_tick and schedule.is_due(time)
                     if is_requested and topics.is_heard:
                         topics.answer(time)
                     elif is_due and topics.is_heard:
