@@ -44,6 +44,7 @@ WORLD_SENSORS = (
     'rgbd_camera',
     'rgbd',
     'contact',
+    'sonar',
 )
 """Types of sensors that look at the world: :mod:`amr_description.model.gazebo_sensors`."""
 

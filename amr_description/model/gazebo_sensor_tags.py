@@ -319,13 +319,17 @@ class SensorTag:
 
     def range(self, path: str) -> tuple[float, float, float]:
         """Return the least and the largest range, m, and the resolution of ``<range>``."""
-        element = self.element.find(path)
+        element, name = self.element.find(path), path.rpartition('/')[2]
         if element is None or element.find('max') is None:
             self.error(
-                'it has no <range> with a <max>' if element is None else '<range> has no <max>',
+                f'it has no <{name}> with a <max>'
+                if element is None
+                else f'<{name}> has no <max>',
                 element,
                 fix=f'write, in <{path.partition("/")[0]}>, '
-                '<range><min>0.1</min><max>10.0</max></range>',
+                '<range><min>0.1</min><max>10.0</max></range>'
+                if '/' in path
+                else f'write <{name}><min>0.1</min><max>4.0</max></{name}>',
             )
             return 0.0, 0.0, 0.0
         least = self.number(f'{path}/min', 0.0, 0.0, 'm: a finite number from 0 on')

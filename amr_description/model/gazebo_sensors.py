@@ -18,6 +18,7 @@ depth_camera, depth              ``<topic>``, ``<topic>/points``, ``camera_info`
 rgbd_camera, rgbd                ``<topic>/image``, ``/depth_image``, ``/points``,
                                  ``/camera_info``; ``NAME``
 contact                          ``<topic>``; ``NAME/contact``
+sonar                            ``<topic>``: Range; ``NAME/range``
 ================================ ==================================================================
 
 The frame of the messages is the one that the tag names, else the link that the sensor is on; of a
@@ -27,6 +28,7 @@ camera, the link below it that has ``optical`` in its name (REP 103). Gazebo wou
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
+import math
 
 from lxml import etree
 
@@ -50,6 +52,7 @@ from amr_description.model.sensors import (
     Lidar,
     RANGE,
     RobotSensors,
+    ScanAxis,
     WorldSensor,
 )
 from amr_description.model.xml_reader import parse_xml
@@ -74,7 +77,6 @@ _LACKING = (
     'rfidtag',
     'segmentation',
     'segmentation_camera',
-    'sonar',
     'thermal',
     'thermal_camera',
     'wide_angle_camera',
@@ -86,7 +88,8 @@ _LACKING = (
 _TYPES = (*WORLD_SENSORS, *SERVED_ELSEWHERE, *_LACKING)
 _FRAMES = ('gz_frame_id', 'ignition_frame_id', 'frame_id')
 """New Gazebo's names of the frame, the newest first; SDF's last."""
-_RANGE_FINDERS = ('gpu_lidar', 'lidar', 'gpu_ray', 'ray')
+_SONAR_RAYS = 9
+"""Along either side of the square in which a sonar looks."""
 _DEFAULT_TOPIC = '__default_topic__'
 _SIMILAR = 0.6
 
@@ -148,9 +151,13 @@ def range_finder_of(robot: Robot, name: str) -> Lidar | None:
     """
     xml = parse_xml(robot.text, robot.source, raise_error_of(robot.text, strict=False))
     for element, link in () if xml is None else sensors_of(xml):
-        if element.get('name') == name and element.get('type', '') in _RANGE_FINDERS:
+        if element.get('name') == name and _READERS.get(element.get('type', '')) in (
+            _lidar,
+            _sonar,
+        ):
             tag = SensorTag(element, link.strip(), robot, link_poses(robot))
-            lidar = lidar_of(tag, tag.mount(tag.link))
+            is_sonar = element.get('type') == 'sonar'
+            lidar = _sonar(tag) if is_sonar else lidar_of(tag, tag.mount(tag.link))
             return None if tag.is_faulty else lidar
     return None
 
@@ -312,6 +319,18 @@ def _contact(tag: SensorTag) -> ContactSensor:
     return ContactSensor(mount, collisions, topic)
 
 
+def _sonar(tag: SensorTag) -> Lidar:
+    """Return the rays in the square about the cone of ``<sonar>``, whose nearest one counts."""
+    topic = _topic(tag, f'{topic_part(tag.name)}/range')
+    mount = tag.mount(tag.frame(*_FRAMES) or tag.link)
+    least, most, _ = tag.range('sonar')
+    half = math.atan2(tag.number('sonar/radius', 0.5, 0.0), most)
+    axis = ScanAxis(_SONAR_RAYS, -half, half)
+    return Lidar(
+        mount, axis, axis, least, most, scan_topic='', range_topic=topic, radiation_type=0
+    )
+
+
 def _named_topic(sensor: etree._Element) -> str:
     """Return a topic of new Gazebo as it is usually bridged to ROS; '' if the tag names none."""
     topic = gz_topic(PluginElement(sensor), 'topic', '').rstrip('/')
@@ -338,5 +357,6 @@ _READERS: Mapping[str, Callable[[SensorTag], WorldSensor]] = {
     **dict.fromkeys(('depth_camera', 'depth'), _depth_camera),
     **dict.fromkeys(('rgbd_camera', 'rgbd'), _rgbd_camera),
     'contact': _contact,
+    'sonar': _sonar,
 }
 """Type of a sensor → what reads its tag."""
