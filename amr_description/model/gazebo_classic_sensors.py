@@ -21,8 +21,8 @@ What the plugins of Gazebo Classic in ``<sensor>`` tags publish, of ROS 2 and of
 ``bumper``                         ``bumper_states``
 ================================== ================================================================
 
-The frame is ``<frame_name>``, else the link that the sensor is on. Where ROS 1 took ``/world``
-the link is taken, too.
+The frame is ``<frame_name>``, else the link that the sensor is on, for a bumper ``world``. Where
+ROS 1 took ``/world`` for others the link is taken, too.
 """
 
 from collections.abc import Callable, Mapping
@@ -33,6 +33,7 @@ from amr_description.model.gazebo import Noise
 from amr_description.model.gazebo_builder import node_name
 from amr_description.model.gazebo_plugins import PluginElement
 from amr_description.model.gazebo_sensor_tags import camera_of, lidar_of, SensorTag, topic_part
+from amr_description.model.robot import WORLD_LINK
 from amr_description.model.sensors import Camera, ContactSensor, Lidar, SensorMount, WorldSensor
 from amr_description.text import quote
 
@@ -78,11 +79,22 @@ def read_classic(tag: SensorTag, plugin: PluginElement) -> list[WorldSensor] | N
     return sensors
 
 
-def _mount(tag: SensorTag, plugin: PluginElement, inside: str = '') -> SensorMount:
-    frame = plugin.text('frame_name', 'frameName').lstrip('/')
-    if frame and not tag.is_link(frame):
+def _mount(
+    tag: SensorTag, plugin: PluginElement, inside: str = '', default: str = ''
+) -> SensorMount:
+    """
+    Return where a sensor is, with the frame of its messages.
+
+    Args:
+        tag: of the sensor.
+        plugin: that publishes what it measures.
+        inside: an element with a pose of its own.
+        default: a frame that is no link and is none the less right; '': the link.
+    """
+    frame = plugin.text('frame_name', 'frameName').lstrip('/') or default or tag.link
+    if frame != default and not tag.is_link(frame):
         tag.warn_of_frame('frame_name', frame, plugin.element)
-    mount = tag.mount(frame or tag.link, inside)
+    mount = tag.mount(frame, inside)
     limit = _number(tag, plugin, 'update_rate', 'updateRate')
     slowest = min(filter(None, (limit, mount.rate)), default=0.0)
     return replace(mount, namespace=plugin.namespace, rate=slowest)
@@ -290,10 +302,9 @@ def _with_baseline(camera: Camera, plugin: PluginElement) -> Camera:
 
 
 def _bumper(tag: SensorTag, plugin: PluginElement) -> list[WorldSensor]:
-    link, collisions = tag.collisions()
-    mount = replace(_mount(tag, plugin), link=link)
+    mount = _mount(tag, plugin, default=WORLD_LINK)
     topic = _topic(tag, plugin, 'bumper_states', 'bumperTopicName')
-    return [ContactSensor(mount, collisions, topic, 'gazebo_msgs/msg/ContactsState')]
+    return [ContactSensor(mount, tag.collisions(), topic, 'gazebo_msgs/msg/ContactsState')]
 
 
 _READERS: Mapping[str, tuple[tuple[str, ...], Read]] = {

@@ -14,6 +14,7 @@ import re
 
 from lxml import etree
 
+from amr_description.model.collision_names import find_collisions
 from amr_description.model.findings import Finding
 from amr_description.model.frames import rotate, Transform, Vector
 from amr_description.model.gazebo import Noise
@@ -51,8 +52,6 @@ _ENCODINGS = {
 }
 _TOPIC = re.compile(r'/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*', re.ASCII)
 _SIMILAR = 0.6
-_COLLISION = re.compile(r'_collision(?:_\d+)?$')
-_LUMP = '_fixed_joint_lump__'
 _NOISES = {'none': False, 'gaussian': True, 'gaussian_quantized': True}
 
 
@@ -193,45 +192,19 @@ class SensorTag:
             fix=f'write {meant}' if meant else f'there are {quote_all(links)}',
         )
 
-    def collisions(self) -> tuple[str, tuple[str, ...]]:
-        """
-        Return the link of a contact sensor, and the names of its collisions; none are all.
-
-        SDF names those of a URDF ``LINK_collision``, the next ``LINK_collision_1``, and those of a
-        link that is fixed to another ``OTHER_fixed_joint_lump__LINK_collision``.
-        """
-        named = [(each.text or '').strip() for each in self.element.iterfind('contact/collision')]
-        found: dict[str, list[str]] = {}
-        for name in filter(None, named):
-            link, own = self._collision(name)
-            if not link:
-                self.error(
-                    '<collision> of <contact> is none of the robot',
-                    self.element.find('contact/collision'),
-                    found=quote(name),
-                    fix=f'write {self.link}_collision for those of its link',
-                )
-            found.setdefault(link or self.link, []).append(own)
-        if len(found) > 1:
-            others = [link for link in found if link != self.link]
+    def collisions(self) -> tuple[str, ...]:
+        """Return the names of collisions of a contact sensor, as written; none are all."""
+        elements = self.element.findall('contact/collision')
+        names = [text for each in elements if (text := (each.text or '').strip())]
+        _, unknown = find_collisions(self.robot, self.link, names)
+        if unknown:
             self.warning(
-                'its collisions are of several links',
-                found=quote_all([*found]),
-                taken=f'only those of {quote(next(iter(found)))} are felt',
-                fix=f'write a sensor of its own for each of {quote_all(others)}',
+                '<collision> of <contact> is none of the robot',
+                elements[0],
+                found=quote_all(unknown),
+                fix=f'write {self.link}_collision for those of its link',
             )
-        link, names = next(iter(found.items()), (self.link, ['']))
-        return link, () if '' in names else tuple(names)
-
-    def _collision(self, name: str) -> tuple[str, str]:
-        """Return the link of a collision, and its name in the URDF; '' stands for all of it."""
-        for link in (self.link, *(each.name for each in self.robot.links)):
-            if not self.robot.has_link(link):
-                continue
-            if any(each.name == name for each in self.robot.link(link).collisions):
-                return link, name
-        owner = _COLLISION.sub('', name.rpartition(_LUMP)[2])
-        return (owner, '') if self.robot.has_link(owner) else ('', '')
+        return tuple(names)
 
     def optical_frame(self) -> str:
         """Return the link for the messages of a camera whose tag names none (REP 103)."""

@@ -5,7 +5,8 @@ Lidars, cameras and contact sensors from the ``<sensor>`` tags of ``<gazebo>`` b
 
 New Gazebo's sensors publish on ``<topic>`` by themselves, those of Classic by the plugin in their
 tag (:mod:`amr_description.model.gazebo_classic_sensors`). Here each has the topics that it has in
-ROS: new Gazebo's as they are usually bridged, ``<topic>`` without a leading ``/model/NAME``.
+ROS: new Gazebo's as they are usually bridged, ``<topic>`` without a leading ``/model/NAME`` or
+slash, in the namespace of the robot.
 
 ================================ ==================================================================
 type                             topics; without ``<topic>``
@@ -311,12 +312,11 @@ def _any_camera(tag: SensorTag, *, has_colour: bool = True) -> Camera:
 
 
 def _contact(tag: SensorTag) -> ContactSensor:
-    link, collisions = tag.collisions()
-    mount = replace(tag.mount(tag.frame(*_FRAMES) or tag.link), link=link)
-    named = tag.text('contact/topic') if not _named_topic(tag.element) else ''
-    default = '' if named == _DEFAULT_TOPIC else named
+    contact = tag.element.find('contact')
+    default = _named_topic(contact) if contact is not None else ''
     topic = _topic(tag, default or f'{topic_part(tag.name)}/contact')
-    return ContactSensor(mount, collisions, topic)
+    mount = tag.mount(tag.frame(*_FRAMES) or tag.link)
+    return ContactSensor(mount, tag.collisions(), topic)
 
 
 def _sonar(tag: SensorTag) -> Lidar:
@@ -332,9 +332,13 @@ def _sonar(tag: SensorTag) -> Lidar:
 
 
 def _named_topic(sensor: etree._Element) -> str:
-    """Return a topic of new Gazebo as it is usually bridged to ROS; '' if the tag names none."""
-    topic = gz_topic(PluginElement(sensor), 'topic', '').rstrip('/')
-    return '' if topic.strip('/') == _DEFAULT_TOPIC else topic
+    """
+    Return a topic of new Gazebo as it is usually bridged to ROS; '' if the tag names none.
+
+    With and without a leading slash it is the same one there; here it is in the robot's namespace.
+    """
+    topic = gz_topic(PluginElement(sensor), 'topic', '').strip('/')
+    return '' if topic == _DEFAULT_TOPIC else topic
 
 
 def _topic(tag: SensorTag, default: str) -> str:
@@ -342,7 +346,7 @@ def _topic(tag: SensorTag, default: str) -> str:
 
 
 def _info_topic(tag: SensorTag) -> str:
-    return tag.topic(tag.text('camera/camera_info_topic'))
+    return tag.topic(tag.text('camera/camera_info_topic').strip('/'))
 
 
 def _beside(tag: SensorTag, topic: str) -> str:

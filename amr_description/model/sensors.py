@@ -53,6 +53,8 @@ class SensorMount:
         """
         Return the full name of a topic; '' stays ''.
 
+        A topic of new Gazebo that begins with the namespace already has none put before it.
+
         Args:
             topic: relative or absolute.
             namespace: of the robot, absolute: ``/`` or ``/robot1``.
@@ -60,7 +62,9 @@ class SensorMount:
         if not topic or topic.startswith('/'):
             return topic
         inside = namespace.rstrip('/') or f'/{self.namespace}'.rstrip('/')
-        return f'{inside}/{topic}'
+        return (
+            f'/{topic}' if inside and f'/{topic}'.startswith(f'{inside}/') else f'{inside}/{topic}'
+        )
 
 
 @dataclass(frozen=True, slots=True)

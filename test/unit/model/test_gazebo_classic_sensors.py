@@ -112,7 +112,7 @@ NAMES = [
 def test_topics_and_types(kind, library, inside, topics):
     sensor = sensor_of(kind, library, inside)
     assert topics_of(sensor) == topics
-    assert sensor.mount.frame == 'base'
+    assert sensor.mount.frame == ('world' if library == 'bumper' else 'base')
 
 
 def test_the_namespace_of_the_robot_counts_before_that_of_the_plugin():

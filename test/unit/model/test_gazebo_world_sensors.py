@@ -86,8 +86,16 @@ def test_cameras_are_on_the_topics_of_gazebo():
     assert depth.points_topic == 'cam/image_raw/points'
     assert depth.depth_camera_info_topic == 'cam/camera_info'
     both = sensor_of('rgbd_camera', '<topic>/cam</topic><camera/>')
-    assert (both.image_topic, both.depth_topic) == ('/cam/image', '/cam/depth_image')
-    assert (both.points_topic, both.camera_info_topic) == ('/cam/points', '/cam/camera_info')
+    assert (both.image_topic, both.depth_topic) == ('cam/image', 'cam/depth_image')
+    assert (both.points_topic, both.camera_info_topic) == ('cam/points', 'cam/camera_info')
+
+
+def test_topics_of_new_gazebo_are_in_the_namespace_of_the_robot_once():
+    for topic in ('scan', '/scan', '/model/r/scan', 'r1/scan', '/r1/scan'):
+        sensor = sensor_of('lidar', f'<topic>{topic}</topic><lidar>{SCAN}{RANGE}</lidar>')
+        assert sensor.mount.full_name(sensor.scan_topic, '/r1') == '/r1/scan'
+    assert sensor.mount.full_name('r10/scan', '/r1') == '/r1/r10/scan'
+    assert sensor.mount.full_name('/scan', '/r1') == '/scan'
 
 
 def test_the_points_of_a_depth_camera_have_the_axes_of_their_frame():
@@ -116,22 +124,21 @@ def test_the_lens_of_a_camera():
     assert camera.noise.stddev == 0.007
 
 
-def test_contacts_are_those_of_collisions_by_the_names_of_sdf():
-    text = """<robot name="r"><link name="base"><collision name="front"><geometry>
-      <sphere radius="1"/></geometry></collision></link><link name="eye"/>
-      <joint name="a" type="fixed"><parent link="base"/><child link="eye"/></joint>
-      <gazebo reference="base"><sensor name="bump" type="contact"><contact>
-        <collision>{}</collision>{}</contact></sensor></gazebo></robot>"""
+def test_a_contact_sensor_has_collisions_and_a_topic():
+    def contact_of(inside):
+        found = sensor_of('contact', f'<contact>{inside}</contact>', name='bump')
+        return found.collisions, found.topic
 
-    def contact_of(collision, inside=''):
-        (sensor,) = robot_sensors_of(parse(text.format(collision, inside))).sensors
-        return sensor.mount.link, sensor.collisions, sensor.topic
-
-    assert contact_of('base_collision') == ('base', (), 'bump/contact')
-    assert contact_of('base_collision_1') == ('base', (), 'bump/contact')
-    assert contact_of('front', '<topic>hit</topic>') == ('base', ('front',), 'hit')
-    lumped = 'base_fixed_joint_lump__eye_collision_2'
-    assert contact_of(lumped, '<topic>__default_topic__</topic>') == ('eye', (), 'bump/contact')
+    assert contact_of('') == ((), 'bump/contact')
+    assert contact_of('<topic>__default_topic__</topic>') == ((), 'bump/contact')
+    assert contact_of('<topic>/model/r/hit</topic>') == ((), 'hit')
+    assert sensor_of('contact', '<topic>hit</topic>').topic == 'hit'
+    named = '<contact><collision>front_collision</collision><collision/></contact>'
+    body = '<collision name="front"><geometry><sphere radius="1"/></geometry></collision>'
+    text = f"""<robot name="r"><link name="base">{body}</link><gazebo reference="base">
+      <sensor name="s" type="contact">{named}</sensor></gazebo></robot>"""
+    found = robot_sensors_of(parse(text))
+    assert not found.findings and found.sensors[0].collisions == ('front_collision',)
 
 
 def test_several_lidars_without_a_topic_have_their_names():
@@ -245,11 +252,6 @@ FAULTS = [
     ),
     ('gpu_lidr', '', 'its type is none of SDF: found "gpu_lidr", expected one of gpu_lidar, lid'),
     ('', '', 'it has no type: expected one of gpu_lidar,'),
-    (
-        'contact',
-        '<contact><collision>front</collision></contact>',
-        '<collision> of <contact> is none of the robot: found "front"; write eye_collision',
-    ),
 ]
 
 
@@ -282,6 +284,16 @@ WARNINGS = [
     ),
     ('<camera><noise><type>white</type></noise></camera>', 'type of <noise>: found "white"'),
 ]
+
+
+def test_a_collision_that_is_not_there_is_told():
+    tag = '<sensor name="s" type="contact"><contact><collision>f</collision></contact></sensor>'
+    found = robot_sensors_of(robot_of(f'<gazebo reference="eye">{tag}</gazebo>'))
+    assert len(found.sensors) == 1
+    assert [each.text for each in found.findings] == [
+        'r.urdf:5: gazebo sensor "s": <collision> of <contact> is none of the robot: found "f"; '
+        'write eye_collision for those of its link'
+    ]
 
 
 @pytest.mark.parametrize('inside, message', WARNINGS)
