@@ -41,6 +41,7 @@ ABOUT_LIFT = 'whether a robot that would touch the world is lifted until it is f
 ABOUT_STRICT = 'whether a robot that has to be taken as something else is refused'
 ABOUT_BRIDGE = 'configuration file of ros_gz_bridge, by which topics of Gazebo are called'
 ABOUT_MOCKS = 'mock_components is simulated as other hardware (simulate), or stays a mock (mock)'
+ABOUT_RENDERER = 'what makes pictures of cameras: OpenGL (gl), rays, or OpenGL if it works (auto)'
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +72,7 @@ def simulation(
     strict: Annotated[bool, ABOUT_STRICT] = False,
     mock_hardware: Annotated[str, ABOUT_MOCKS] = 'simulate',
     bridge: Annotated[str, ABOUT_BRIDGE] = '',
+    camera_renderer: Annotated[str, ABOUT_RENDERER] = 'auto',
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
     urdf = with_sensors(urdf, sensors)
@@ -79,7 +81,7 @@ def simulation(
         description = _fixed(description, urdf)
     plan = plan_controllers(urdf, description, controllers, activate, bridge=bridge)
     options: dict[str, ParameterValue] = {'lift': lift, 'strict': strict, 'bridge': bridge}
-    options['mock_hardware'] = mock_hardware
+    options |= {'mock_hardware': mock_hardware, 'camera_renderer': camera_renderer}
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = _simulator(world, rtf, paused, plan.parameter, options)
@@ -116,6 +118,7 @@ _OPTIONS: Mapping[str, ParameterValue] = {
     'strict': False,
     'mock_hardware': 'simulate',
     'bridge': '',
+    'camera_renderer': 'auto',
 }
 
 
@@ -136,6 +139,8 @@ def _simulator(
     }
     if options['mock_hardware'] not in ('simulate', 'mock'):
         raise UsageError(f'mock_hardware:={options["mock_hardware"]}: it is simulate or mock')
+    if options['camera_renderer'] not in ('auto', 'gl', 'rays'):
+        raise UsageError(f'camera_renderer:={options["camera_renderer"]}: it is auto, gl or rays')
     parameters.update({key: each for key, each in options.items() if each != _OPTIONS[key]})
     if options['bridge']:
         parameters['bridge'] = str(path_of(str(options['bridge']), 'bridge'))

@@ -6,6 +6,9 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 =========================== =======================================================================
 ``renderer.py``             what a renderer is asked for, and what it gives
 ``ray_renderer.py``         one that casts a ray for each pixel, on the processor
+``gl_renderer.py``          one that draws by OpenGL
+``gl_context.py``           … its context: EGL, OSMesa
+``choice.py``               which of the two
 ``shading.py``              the colours of what rays hit: light
 ``textures.py``             … and textures
 ``pictures.py``             what messages are made of them: noise, JPEGs, clouds of points

@@ -21,8 +21,8 @@ from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.lens import intrinsics_of, pixel_directions
 from amr_description.sim.cameras.renderer import BACKGROUND, Picture, Renderer, Shot
 from amr_description.sim.cameras.shading import Shading, Surface
-from amr_description.sim.rays import Hits, RayScene
-from amr_description.sim.state_copy import CopiedPoses
+from amr_description.sim.rays import Hits
+from amr_description.sim.state_copy import CopiedScenes
 
 _MOST_LAYERS = 8
 """Of surfaces that a ray passes as they are seen from behind."""
@@ -45,22 +45,20 @@ class _Rays:
 class RayRenderer(Renderer):
     """See the module."""
 
-    name = 'rays'
+    name: str = 'rays'
 
     def __init__(self) -> None:
         """Nothing is bound yet."""
-        self._poses = CopiedPoses()
+        self._scenes = CopiedScenes()
         self._bound: mujoco.MjModel | None = None
         self._rays: dict[Camera, _Rays] = {}
 
     def render(self, shot: Shot) -> Picture:
         """Make one picture."""
         state, camera = shot.state, shot.camera
-        data = self._poses.data(state)
+        self._scene = self._scenes.scene(state)
         if self._bound is not state.model:
-            self._bound = state.model
-            self._scene = RayScene(state.model, data, sorted(state.robots))
-            self._shading = Shading(state.model)
+            self._bound, self._shading = state.model, Shading(state.model)
         rays = self._rays_of(camera)
         turn = np.array(matrix_from_quaternion(shot.pose.rotation))
         origin = np.array(shot.pose.translation)

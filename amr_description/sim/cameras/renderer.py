@@ -47,8 +47,10 @@ class Picture:
 class Renderer(ABC):
     """Makes pictures; all calls on one thread."""
 
-    name: str
-    """``rays`` or ``gl``."""
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """``rays`` or ``gl``."""
 
     @abstractmethod
     def render(self, shot: Shot) -> Picture:

@@ -58,7 +58,7 @@ class Shading:
 
     def colors(self, data: mujoco.MjData, surface: Surface, forward: np.ndarray) -> np.ndarray:
         """
-        Return the colours of surfaces: (n, 3), float32, 0 to 1 and more.
+        Return the colours of surfaces: (n, 3), float32, 0 to 1.
 
         Args:
             data: Has the poses of geoms and lights.
@@ -69,6 +69,8 @@ class Shading:
         if self._glows:
             light += self._emission[surface.geom, np.newaxis]
         light *= self._rgba[surface.geom]
+        # OpenGL's colours of vertices have a limit, also where a texture makes them darker.
+        np.minimum(light, 1.0, out=light)
         self._textures.apply(data, surface.geom, surface.point, surface.footprint, light)
         return light
 

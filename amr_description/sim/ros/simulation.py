@@ -35,6 +35,7 @@ from amr_description.parameters import group, parameter
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
+from amr_description.sim.cameras.choice import CHOICES
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler
@@ -103,6 +104,13 @@ class SimulationParameters:
     )
     seed: int = parameter(
         0, 'From which the noise of every sensor follows', minimum=0, read_only=True
+    )
+    camera_renderer: str = parameter(
+        'auto',
+        'What makes the pictures of cameras: OpenGL, or rays, which need none, and give the same '
+        'bits on each machine; auto: OpenGL where it works',
+        choices=CHOICES,
+        read_only=True,
     )
     ground_truth_rate: float = parameter(
         50.0,
@@ -175,7 +183,13 @@ class Simulation:
                 self.loop_thread.loop.pause()
             context = LoopContext(self.loop_thread, publisher, self.logs)
             self._sensors = SensorManager(
-                node, publisher, self.world, self.log, self._is_paced, self._has_ticked
+                node,
+                publisher,
+                self.world,
+                self.log,
+                self._is_paced,
+                self._has_ticked,
+                parameters.camera_renderer,
             )
             self._sensors.on_first = self._serve_measurements
             self.entities = self._entity_manager(context, ground_truth, ros_args)

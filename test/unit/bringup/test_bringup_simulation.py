@@ -154,7 +154,13 @@ def test_mock_hardware_is_simulated_or_a_mock():
         stack(mock_hardware='fake')
 
 
-OPTIONS = {'lift', 'strict', 'mock_hardware'}
+def test_a_renderer_is_one_that_there_is():
+    assert stack(camera_renderer='rays').nodes[0].parameters[0]['camera_renderer'] == 'rays'
+    with pytest.raises(AmrError, match='^camera_renderer:=vulkan: it is auto, gl or rays'):
+        stack(camera_renderer='vulkan')
+
+
+OPTIONS = {'lift', 'strict', 'mock_hardware', 'camera_renderer'}
 
 
 def cart(folder, types, more=''):

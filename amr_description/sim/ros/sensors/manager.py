@@ -11,7 +11,7 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.errors import AmrError
 from amr_description.model.sensors import Camera, ContactSensor, Lidar, WorldSensor
-from amr_description.sim.cameras.ray_renderer import RayRenderer
+from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.ros.sensors.camera import CameraTopics
 from amr_description.sim.ros.sensors.contact import ContactTopics
 from amr_description.sim.ros.sensors.lidar import LidarTopics
@@ -45,6 +45,7 @@ class SensorManager:
         log: Log,
         is_paced: Callable[[], bool],
         has_ticked: Callable[[int], bool] = lambda time: True,
+        camera_renderer: str = 'auto',
     ) -> None:
         """
         Measure and publish from now on, at the end of control cycles.
@@ -57,6 +58,7 @@ class SensorManager:
             is_paced: See :attr:`SensorContext.is_paced`.
             has_ticked: Whether the controllers have ticked at a time, ns. Sensors measure at
                 ticks, so that the odometry of their instant goes out before.
+            camera_renderer: One of :data:`~amr_description.sim.cameras.choice.CHOICES`.
         """
         self._node = node
         self._loop_publisher = loop_publisher
@@ -67,7 +69,7 @@ class SensorManager:
         self._worker = SensorWorker(loop_publisher, log, is_paced)
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
-        self._renderer = RayRenderer()
+        self._renderer = ChosenRenderer(camera_renderer, log)
         self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
         self._is_requested = False
         self.on_first: Callable[[], None] | None = None
@@ -125,7 +127,7 @@ class SensorManager:
 
     def close(self) -> None:
         """End the thread that measures; the control thread has ended."""
-        self._worker.close()
+        self._worker.close(self._renderer.close)
 
     def request(self) -> None:
         """Have the sensors that are heard measure in the next cycle; on the control thread."""

@@ -49,6 +49,7 @@ class SensorWorker:
         self._changed = threading.Condition()
         self._thread: threading.Thread | None = None
         self._is_closed = False
+        self._at_end: Callable[[], None] = lambda: None
         loop_publisher.followers.append(self._begin)
 
     def task(self, name: str, remedy: str) -> 'SensorTask':
@@ -71,10 +72,16 @@ class SensorWorker:
             with self._changed:
                 self._changed.wait_for(lambda: self._is_closed or not task.is_busy)
 
-    def close(self) -> None:
-        """End the thread; a measurement that it makes is finished, others are not begun."""
+    def close(self, at_end: Callable[[], None]) -> None:
+        """
+        End the thread; a measurement that it makes is finished, others are not begun.
+
+        Args:
+            at_end: What the thread does last, if it was there.
+        """
         with self._changed:
             self._is_closed = True
+            self._at_end = at_end
             self._queue.clear()
             self._queue.append(None)
             self._changed.notify_all()
@@ -104,6 +111,7 @@ class SensorWorker:
                 self._changed.wait_for(lambda: self._queue)
                 task = self._queue.popleft()
             if task is None:
+                self._at_end()
                 return
             try:
                 task.make()
@@ -128,8 +136,8 @@ class SensorTask:
         """Whether a measurement was asked for that is not yet done."""
         self._worker, self._remedy = worker, remedy
         self._measure: Callable[[], None] | None = None
-        self._duration = 0.0
-        """Of the latest measurement, s of the wall clock."""
+        self._duration = self._processor_time = 0.0
+        """Of the latest measurement, s."""
         self._made = self._left_out = 0
         self._next_line = 0.0
 
@@ -152,20 +160,22 @@ class SensorTask:
         """Make the measurement; on the thread of the worker."""
         measure = self._measure
         assert measure is not None
-        begin = wall.monotonic()
+        begin, processor_begin = wall.monotonic(), wall.thread_time()
         measure()
+        self._processor_time = wall.thread_time() - processor_begin
         self._duration = wall.monotonic() - begin
 
     def _leave_out(self) -> None:
         self._left_out += 1
         now = wall.monotonic()
-        if now < self._next_line:
+        if now < self._next_line or not self._duration:  # the first one loads the scene
             return
         self._next_line = now + _LOG_PERIOD
         total = self._made + self._left_out
         self._worker.log(
             Severity.WARN,
             f'{self.name}: {self._left_out} of {total} measurements were left out, as one takes '
-            f'{self._duration * 1e3:.0f} ms; {self._remedy}',
+            f'{self._duration * 1e3:.0f} ms, {self._processor_time * 1e3:.0f} ms of them of its '
+            f'own processor time; {self._remedy}',
         )
         self._made = self._left_out = 0

@@ -1,0 +1,230 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Pictures by MuJoCo's own renderer, in OpenGL: a graphics card, or Mesa on the processor.
+
+The projection is exactly the matrix K of the camera. A lens is applied to the picture of a pinhole
+that sees all that the lens shows. As in Gazebo, what is nearer than the near plane is cut away.
+"""
+
+import copy
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from amr_description.errors import RenderingError
+from amr_description.model.frames import matrix_from_quaternion
+from amr_description.model.sensors import Camera, Intrinsics
+from amr_description.sim.cameras.gl_context import create_context, GlContext
+from amr_description.sim.cameras.lens import intrinsics_of, pixel_directions
+from amr_description.sim.cameras.renderer import BACKGROUND, Picture, Renderer, Shot
+from amr_description.sim.rays import RayScene
+from amr_description.sim.state_copy import CopiedPoses
+
+_SKYBOX = int(mujoco.mjtTexture.mjTEXTURE_SKYBOX)
+_SPARE_GEOMS = 100
+_LARGEST = 4096
+"""Pixels, of a side of the pinhole's picture for a lens; beyond that it is coarser."""
+_SEEN, _UNSEEN = 0, 5
+"""Geom groups."""
+_FLAGS = mujoco.mjtRndFlag
+_OF_COLOR = (_FLAGS.mjRND_SHADOW, _FLAGS.mjRND_SKYBOX, _FLAGS.mjRND_REFLECTION)
+_NEVER = (_FLAGS.mjRND_FOG, _FLAGS.mjRND_HAZE)
+_AS_IDS = (_FLAGS.mjRND_SEGMENT, _FLAGS.mjRND_IDCOLOR)
+"""Without light and textures: for depth alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class _View:
+    """
+    The pinhole whose picture is rendered for a camera.
+
+    ``source``: (height, width) of the camera, the flat index of the pixel there that each one
+    shows, -1: none; None: the pictures are the same.
+    """
+
+    width: int
+    height: int
+    k: Intrinsics
+    source: np.ndarray | None
+
+
+class GlRenderer(Renderer):
+    """See the module."""
+
+    name: str = 'gl'
+
+    def __init__(self) -> None:
+        """
+        Make a context on this thread.
+
+        Raises:
+            RenderingError: There is no OpenGL that works.
+        """
+        self._context: GlContext | None = create_context()
+        self.description = f'{self._context.renderer()}, by {self._context.library}'
+        """What draws."""
+        self._poses = CopiedPoses()
+        self._views: dict[Camera, _View] = {}
+        self._size = (0, 0)
+        self._bound: mujoco.MjModel | None = None
+        self._model: mujoco.MjModel | None = None
+        self._mjr: mujoco.MjrContext | None = None
+
+    def render(self, shot: Shot) -> Picture:
+        """Make one picture. Raises RenderingError."""
+        view = self._view_of(shot.camera)
+        data = self._poses.data(shot.state)
+        try:
+            scene = self._bind(shot, view, data)
+            camera = shot.camera
+            color = depth = None
+            if shot.with_color:
+                color, depth = self._draw(scene, shot, view, camera.near, camera.far)
+            if shot.with_depth:
+                ends = (camera.depth_near, camera.depth_far)
+                if depth is None or ends != (camera.near, camera.far):
+                    _, depth = self._draw(scene, shot, view, *ends, with_color=False)
+                depth[depth >= ends[1]] = np.inf
+        except mujoco.FatalError as error:
+            raise RenderingError(f'OpenGL fails: {error}') from error
+        return Picture(
+            None if color is None else _through_lens(color, view, 0),
+            _through_lens(depth, view, np.nan) if shot.with_depth and depth is not None else None,
+        )
+
+    def close(self) -> None:
+        """Let go of the context; on the thread that made it."""
+        if self._mjr is not None:
+            self._mjr.free()
+            self._mjr = None
+        if self._context is not None:
+            self._context.close()
+            self._context = None
+
+    def _view_of(self, camera: Camera) -> _View:
+        view = self._views.get(camera)
+        if view is None:
+            view = self._views[camera] = _view_of(camera)
+        return view
+
+    def _bind(self, shot: Shot, view: _View, data: mujoco.MjData) -> mujoco.MjvScene:
+        """Return the scene as it is now."""
+        width, height = max(self._size[0], view.width), max(self._size[1], view.height)
+        if self._bound is not shot.state.model or self._size != (width, height):
+            self._load(shot, data, (width, height))
+        model = self._model
+        assert model is not None
+        # An infinite plane is drawn as far as the model's own far plane.
+        far = max(shot.camera.far, shot.camera.depth_far)
+        model.vis.map.zfar = max(model.vis.map.zfar, 2.0 * far / model.stat.extent)
+        camera = mujoco.MjvCamera()
+        mujoco.mjv_updateScene(model, data, self._option, None, camera, self._shown, self._scene)
+        return self._scene
+
+    def _load(self, shot: Shot, data: mujoco.MjData, size: tuple[int, int]) -> None:
+        """Load the meshes and textures of a model."""
+        # One of our own: others measure by that of the copy.
+        model = copy.copy(shot.state.model)
+        seen = RayScene(model, data, sorted(shot.state.robots)).all_seen
+        model.geom_group[:] = np.where(seen == 0, _SEEN, _UNSEEN)
+        model.vis.global_.offwidth, model.vis.global_.offheight = size
+        # Edges between two depths have neither of them if they are smoothed.
+        model.vis.quality.offsamples = 0
+        if self._mjr is not None:
+            self._mjr.free()
+        self._mjr = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_50)
+        if not self._mjr.offFBO:
+            raise RenderingError('OpenGL has no framebuffer objects')
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._mjr)
+        self._mjr.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
+        self._scene = mujoco.MjvScene(model, model.ngeom + _SPARE_GEOMS)
+        self._option = mujoco.MjvOption()
+        self._option.geomgroup[:] = 0
+        self._option.geomgroup[_SEEN] = 1
+        self._option.sitegroup[:] = 0
+        self._shown = int(mujoco.mjtCatBit.mjCAT_STATIC | mujoco.mjtCatBit.mjCAT_DYNAMIC)
+        self._has_sky = bool((model.tex_type == _SKYBOX).any())
+        self._bound, self._model, self._size = shot.state.model, model, size
+
+    def _draw(
+        self,
+        scene: mujoco.MjvScene,
+        shot: Shot,
+        view: _View,
+        near: float,
+        far: float,
+        *,
+        with_color: bool = True,
+    ) -> tuple[np.ndarray | None, np.ndarray]:
+        """Return colours and depth, (height, width, …), of a view; from the far plane on: far."""
+        _place(scene, shot, view, near, far)
+        for flag in _OF_COLOR:
+            scene.flags[flag] = with_color
+        for flag in _AS_IDS:
+            scene.flags[flag] = not with_color
+        for flag in _NEVER:
+            scene.flags[flag] = False
+        rectangle = mujoco.MjrRect(0, 0, view.width, view.height)
+        mujoco.mjr_render(rectangle, scene, self._mjr)
+        color = np.empty((view.height, view.width, 3), np.uint8) if with_color else None
+        z = np.empty((view.height, view.width), np.float32)
+        mujoco.mjr_readPixels(color, z, rectangle, self._mjr)
+        # 1 at the near plane, 0 at the far one: z = near (far - depth) / (depth (far - near)).
+        wide = np.flipud(z).astype(np.float64)
+        depth = (near * far / (wide * (far - near) + near)).astype(np.float32)
+        depth[wide <= 0.0] = far
+        if color is not None:
+            color = np.ascontiguousarray(np.flipud(color))
+            if not self._has_sky:
+                color[depth >= far] = BACKGROUND
+        return color, depth
+
+
+def _place(scene: mujoco.MjvScene, shot: Shot, view: _View, near: float, far: float) -> None:
+    """Set pose and projection; of stereo's two cameras both, as MuJoCo draws their mean."""
+    turn = np.array(matrix_from_quaternion(shot.pose.rotation))
+    k = view.k
+    # The edges of the picture are half a pixel beyond the centres of its outermost pixels.
+    left, right = (-0.5 - k.cx) / k.fx * near, (view.width - 0.5 - k.cx) / k.fx * near
+    top, bottom = (0.5 + k.cy) / k.fy * near, -(view.height - 0.5 - k.cy) / k.fy * near
+    for camera in scene.camera:
+        camera.pos, camera.forward, camera.up = shot.pose.translation, turn[:, 0], turn[:, 2]
+        camera.frustum_center = (left + right) / 2.0
+        camera.frustum_width = (right - left) / 2.0
+        camera.frustum_top, camera.frustum_bottom = top, bottom
+        camera.frustum_near, camera.frustum_far = near, far
+        camera.orthographic = 0
+    for number in range(scene.nlight):
+        light = scene.lights[number]
+        if light.headlight:
+            light.pos, light.dir = shot.pose.translation, turn[:, 0]
+
+
+def _view_of(camera: Camera) -> _View:
+    """Return the pinhole for a camera: itself, or one that sees all that the lens shows."""
+    k = intrinsics_of(camera)
+    if camera.distortion.is_none:
+        return _View(camera.width, camera.height, k, None)
+    seen = pixel_directions(camera)
+    is_seen = np.isfinite(seen[..., 0])
+    (left, top), (right, bottom) = seen[is_seen].min(axis=0), seen[is_seen].max(axis=0)
+    fx = min(k.fx, (_LARGEST - 1) / max(right - left, 1e-9))
+    fy = min(k.fy, (_LARGEST - 1) / max(bottom - top, 1e-9))
+    width, height = int((right - left) * fx) + 2, int((bottom - top) * fy) + 2
+    source = np.full(is_seen.shape, -1)
+    columns = np.rint((seen[is_seen, 0] - left) * fx).astype(int)
+    rows = np.rint((seen[is_seen, 1] - top) * fy).astype(int)
+    source[is_seen] = rows * width + columns
+    return _View(width, height, Intrinsics(fx, fy, -left * fx, -top * fy), source)
+
+
+def _through_lens(pixels: np.ndarray, view: _View, nothing: float) -> np.ndarray:
+    """Return the camera's picture of the pinhole's."""
+    if view.source is None:
+        return pixels
+    flat = pixels.reshape(view.height * view.width, *pixels.shape[2:])
+    shown = flat[np.maximum(view.source, 0)]
+    shown[view.source < 0] = nothing
+    return shown
