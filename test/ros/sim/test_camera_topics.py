@@ -15,7 +15,6 @@ from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
 from sensor_msgs_py import point_cloud2
 from support.running_programs import PATIENCE
 
-from amr_description.control.contracts import null_log
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import Noise
@@ -47,10 +46,14 @@ class Host:
         self.node = Node('host')
         self.world = MujocoWorld('warehouse')
         self.is_paced = False
+        self.lines = []
         self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
         self.sensors = SensorManager(
-            self.node, self.loop_publisher, self.world, null_log, lambda: self.is_paced
+            self.node, self.loop_publisher, self.world, self.log, lambda: self.is_paced
         )
+
+    def log(self, _, text, **__):
+        self.lines.append(text)
 
     def spawn(self, *cameras, namespace='/'):
         self.world.spawn('amr', AMR, Transform())
@@ -173,19 +176,26 @@ def test_while_cycles_are_paced_none_waits_for_a_picture(host):
     render = renderer.render
 
     def slow(shot):
-        begun.set()
-        assert go_on.wait(PATIENCE)
+        if shot.state.time > 50_000_000:
+            begun.set()
+            assert go_on.wait(PATIENCE)
         return render(shot)
 
     renderer.render = slow
     with host.heard(Image, '/camera/image') as images:
         host.turn(6)
+        host.wait(lambda: images)
+        host.turn(5)
         assert begun.wait(PATIENCE)
         host.turn(20)  # four more are due
         go_on.set()
-        host.wait(lambda: images)
-        assert len(images) == 1
-        assert stamp_of(images[0]) == 50_000_000
+        host.wait(lambda: len(images) == 2)
+    assert [*map(stamp_of, images)] == [50_000_000, 100_000_000]
+    _, line = host.lines  # the other one says what renders
+    assert line.startswith(
+        "camera 'front' of 'amr': 1 of 3 measurements were left out, as one takes "
+    )
+    assert line.endswith('a lower <update_rate> or a smaller <image> would do')
 
 
 def test_a_camera_goes_with_its_robot_and_another_robot_does_not_disturb_it(host):

@@ -200,8 +200,7 @@ def test_a_robot_that_goes_while_its_lidar_is_in_work(host, monkeypatch):
     host.wait(lambda: made)
     host.sensors.close()
     assert not scans
-    (line,) = host.lines
-    assert line.startswith("lidar 'lidar' of 'amr': 1 of 2 measurements were left out, as one ")
+    assert host.lines == []  # the first may take its time
 
 
 def test_points_without_a_range_are_nan(host):

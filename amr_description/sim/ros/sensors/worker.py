@@ -21,6 +21,8 @@ from amr_description.control.ros.loop_publisher import LoopPublisher
 
 _LOG_PERIOD = 10.0
 """s between two lines of a sensor whose measurements are left out."""
+_PATIENCE = 2.0
+"""s that the first measurement of a sensor may take without a line."""
 
 
 class SensorWorker:
@@ -139,7 +141,7 @@ class SensorTask:
         self._duration = self._processor_time = 0.0
         """Of the latest measurement, s."""
         self._made = self._left_out = 0
-        self._next_line = 0.0
+        self._asked = self._next_line = 0.0
 
     def request(self, measure: Callable[[], None]) -> None:
         """
@@ -153,7 +155,7 @@ class SensorTask:
             return
         self._made += 1
         self._worker.wait_for(self)  # it began while the control thread did not wait
-        self.is_busy, self._measure = True, measure
+        self.is_busy, self._measure, self._asked = True, measure, wall.monotonic()
         self._worker.request(self)
 
     def make(self) -> None:
@@ -168,14 +170,19 @@ class SensorTask:
     def _leave_out(self) -> None:
         self._left_out += 1
         now = wall.monotonic()
-        if now < self._next_line or not self._duration:  # the first one loads the scene
+        if now < self._next_line:
+            return
+        if not self._duration and now < self._asked + _PATIENCE:  # the first loads the scene
             return
         self._next_line = now + _LOG_PERIOD
         total = self._made + self._left_out
+        taken = f'more than {(now - self._asked) * 1e3:.0f} ms'
+        if self._duration:
+            own = self._processor_time * 1e3
+            taken = f'{self._duration * 1e3:.0f} ms, {own:.0f} ms of them of processor time'
         self._worker.log(
             Severity.WARN,
             f'{self.name}: {self._left_out} of {total} measurements were left out, as one takes '
-            f'{self._duration * 1e3:.0f} ms, {self._processor_time * 1e3:.0f} ms of them of its '
-            f'own processor time; {self._remedy}',
+            f'{taken}; {self._remedy}',
         )
         self._made = self._left_out = 0
