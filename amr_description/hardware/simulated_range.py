@@ -12,6 +12,7 @@ are parameters of the sensor, with the names and units that range_sensor_broadca
       <param name="field_of_view">0.26</param>          (rad, of the whole cone; 0: one ray)
       <param name="min_range">0.02</param>              (m; 0)
       <param name="max_range">4.0</param>               (m; inf)
+      <param name="update_rate">20</param>              (Hz; 0: measured in every cycle)
     </sensor>
 
 or those of the Gazebo sensor of its name (``ray``, ``lidar``, ``gpu_lidar``, ``sonar``), with its
@@ -23,6 +24,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
 
+from amr_description.clock import NANOSECONDS
 from amr_description.control.interfaces import StateInterface
 from amr_description.control.world import World
 from amr_description.errors import HardwareError
@@ -38,11 +40,12 @@ _RINGS = ((0.5, 6), (1.0, 12))
 
 @dataclass(frozen=True, slots=True)
 class RangeLimits:
-    """What a range finder can measure: rad, m, m."""
+    """What a range finder can measure, rad and m, and how often, Hz."""
 
     field_of_view: float = 0.0
     min_range: float = 0.0
     max_range: float = math.inf
+    update_rate: float = 0.0
 
     @classmethod
     def of(cls, name: str, parameters: Mapping[str, str], lidar: Lidar | None) -> 'RangeLimits':
@@ -61,7 +64,7 @@ class RangeLimits:
         if lidar is not None:
             axes = (lidar.horizontal, lidar.vertical)
             view = max(abs(axis.upper - axis.lower) for axis in axes)
-            known = cls(min(view, math.pi), lidar.range_min, lidar.range_max)
+            known = cls(min(view, math.pi), lidar.range_min, lidar.range_max, lidar.mount.rate)
         values = {each: _number(name, each, parameters, getattr(known, each)) for each in _NAMES}
         found = cls(**values)
         if not (0.0 <= found.field_of_view <= math.pi and found.min_range >= 0.0):
@@ -74,10 +77,14 @@ class RangeLimits:
                 f"sensor '{name}': min_range is {found.min_range:g} m and max_range "
                 f'{found.max_range:g} m; the first must be less'
             )
+        if found.update_rate < 0.0:
+            raise HardwareError(
+                f"sensor '{name}': update_rate is {found.update_rate:g} Hz; 0 or more is needed"
+            )
         return found
 
 
-_NAMES = ('field_of_view', 'min_range', 'max_range')
+_NAMES = ('field_of_view', 'min_range', 'max_range', 'update_rate')
 
 
 def _number(sensor: str, name: str, parameters: Mapping[str, str], default: float) -> float:
@@ -122,9 +129,27 @@ class SimulatedRange(SimulatedSensor):
         name = states[0].prefix
         lidar = range_finder_of(world.description, name)
         self._limits = RangeLimits.of(name, mount.parameters, lidar)
+        self._instant, self._elapsed = -1, 0.0
         self._directions = cone(self._limits.field_of_view)
         if lidar is not None and lidar.noise.is_some:
             self._add_noise([('range', lidar.noise)])
+
+    def read(self, period: float) -> None:
+        """Measure, if that is due; the state keeps its value else."""
+        self._elapsed += period
+        rate = self._limits.update_rate
+        if rate > 0.0:
+            instant = math.floor(self.world.time / NANOSECONDS * rate + 1e-6)
+            if instant == self._instant:
+                return
+            self._instant = instant
+        elapsed, self._elapsed = self._elapsed, 0.0
+        super().read(elapsed)
+
+    def restart(self) -> None:
+        """Begin anew, after a reset."""
+        super().restart()
+        self._instant, self._elapsed = -1, 0.0
 
     def measure(self, period: float) -> Sequence[float]:
         """Return the range."""

@@ -17,7 +17,7 @@ from typing import Any
 
 from lxml import etree
 
-from amr_description.model.gazebo import gazebo_sensors_of
+from amr_description.model.gazebo import gazebo_sensors_of, Noise
 from amr_description.model.gazebo_builder import Builder, gz_topic, HIGHEST_RATE, node_name
 from amr_description.model.gazebo_plugins import PluginElement
 from amr_description.model.hardware_info import (
@@ -102,10 +102,11 @@ def _add_imu(builder: Builder, sensor: etree._Element, name: str, link: str) -> 
     else:
         topic, node = _topic(sensor, 'imu'), node_name(name, 'imu')
         frame = PluginElement(sensor).text(*_FRAMES)
+    noises = _noises_of(builder.robot, name)
     covariances = {
         f'static_covariance_{quantity}': matrix
         for quantity in ('angular_velocity', 'linear_acceleration')
-        if (matrix := _covariance(builder.robot, name, quantity))
+        if (matrix := _covariance(noises, quantity))
     }
     builder.instruments[name] = IMU_INTERFACES, {}
     builder.add(
@@ -124,7 +125,7 @@ def _add_imu(builder: Builder, sensor: etree._Element, name: str, link: str) -> 
 
 
 def _add_magnetometer(builder: Builder, sensor: etree._Element, name: str, link: str) -> None:
-    covariance = _covariance(builder.robot, name, 'magnetic_field')
+    covariance = _covariance(_noises_of(builder.robot, name), 'magnetic_field')
     builder.instruments[name] = MAGNETIC_INTERFACES, {}
     builder.add(
         'magnetometer_broadcaster/MagnetometerBroadcaster',
@@ -181,9 +182,13 @@ def _rate(builder: Builder, name: str, rate: float) -> Mapping[str, int]:
     return {'update_rate': max(1, round(min(rate, HIGHEST_RATE)))} if rate > 0.0 else {}
 
 
-def _covariance(robot: Robot, name: str, quantity: str) -> Sequence[float]:
-    """Return the variances of a sensor's noise by rows, as Gazebo's plugins fill them in."""
-    noises = next((dict(each.noise) for each in gazebo_sensors_of(robot) if each.name == name), {})
+def _noises_of(robot: Robot, name: str) -> Mapping[str, Noise]:
+    """Return the noises of a sensor by state interface."""
+    return next((dict(each.noise) for each in gazebo_sensors_of(robot) if each.name == name), {})
+
+
+def _covariance(noises: Mapping[str, Noise], quantity: str) -> Sequence[float]:
+    """Return the variances of a vector's noise by rows, as Gazebo's plugins fill them in."""
     axes = [noises.get(f'{quantity}.{axis}') for axis in 'xyz']
     deviations = [0.0 if noise is None else noise.stddev for noise in axes]
     if not any(deviations):

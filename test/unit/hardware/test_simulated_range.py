@@ -110,6 +110,25 @@ def test_limits_that_cannot_be_are_told_and_nothing_is_measured(parameters, told
     assert f"sensor 'eye': {told}" in line
 
 
+def test_a_slow_finder_keeps_its_value_until_it_measures_again():
+    noise = '<noise><type>gaussian</type><stddev>0.02</stddev></noise>'
+    finder = Finder({'update_rate': '15'}, gazebo(noise))
+
+    def run():
+        values = []
+        for cycle in range(30):
+            finder.world.time = cycle * PERIOD
+            values.append(finder.read(1.0))
+        return values
+
+    values = run()
+    assert len(finder.world.looks) == 5
+    new = [cycle for cycle in range(30) if not cycle or values[cycle] != values[cycle - 1]]
+    assert new == [0, 7, 14, 20, 27]
+    finder.system.reset(0)
+    assert run() == values
+
+
 @pytest.mark.parametrize('view', [0.0, CONE])
 def test_rays_are_unit_vectors_that_fill_the_cone(view):
     rays = cone(view)
