@@ -10,8 +10,9 @@ process and a child of the test all the same: with a pid, session, environment, 
 signals and an end of its own, and nothing of DDS is initialised before.
 
 What differs: its modules are loaded before it asks for them, so a test of what a program imports
-must use ``subprocess``; and these modules are not taken down object by object at its end, which
-would copy all their memory. A command that is no Python program, one with options of the
+must use ``subprocess``; these modules are not taken down object by object at its end, which would
+copy all their memory; and the interpreter of a program of this package is not taken down at all
+(``forking.run_to_the_end``). A command that is no Python program, one with options of the
 interpreter, and one whose environment changes the interpreter is started as ever.
 
 ``bringup`` is forked too, and then forks, as its children, what it would start of our Python
@@ -46,9 +47,9 @@ from support.paths import ROOT
 
 from amr_description.forking import (
     command_line,
-    end_without_teardown,
     ForkTracing,
     note_files_of_modules,
+    run_to_the_end,
 )
 
 _MOST_FILES = 16
@@ -75,6 +76,9 @@ amr_description.nodes.joint_state_publisher amr_description.nodes.robot_state_pu
 amr_description.nodes.ros2_control_node amr_description.nodes.spawner
 amr_description.nodes.teleop_twist_keyboard amr_description.nodes.viewer
 """
+_WITH_MUCH_TO_LOAD = {
+    _SIMULATOR, 'amr_description.nodes.ros2_control_node', 'amr_description.nodes.viewer'
+}  # fmt: skip
 _MAIN_PROGRAMS = ('amr_description.nodes.', _BRINGUP)
 # How the commands of ``amr_description.entry.python_command`` and of the guardian begin.
 _FORKED_BY_BRINGUP = ([sys.executable, '-P'], [sys.executable, '-I'])
@@ -165,8 +169,13 @@ def _program(args):
 
 
 def _is_large(program):
-    """Whether it is the simulator or a whole stack."""
-    return _is_bringup(program) or _SIMULATOR in program
+    """Whether the server of whole stacks has what it loads."""
+    return _is_bringup(program) or not _WITH_MUCH_TO_LOAD.isdisjoint(program[1:2])
+
+
+def _is_ours(program):
+    """Whether it is one of this package's."""
+    return _is_bringup(program) or program[0] == '-m' and program[1].startswith('amr_description.')
 
 
 def _is_bringup(program):
@@ -378,7 +387,6 @@ def _fork_from_here(tracing):
 
 def _be_a_child(words, variables, files, session, tracing):
     """Be what ``subprocess`` would have started, and end; in a fork."""
-    code = 1
     try:
         for number in signal.valid_signals():
             if callable(signal.getsignal(number)):
@@ -395,22 +403,35 @@ def _be_a_child(words, variables, files, session, tracing):
         _, *options = words
         while options[0] in ('-P', '-I', '-S'):
             del options[0]
-        _execute(options, sys.path[1:])
-        code = 0
+        run_to_the_end(lambda: _execute(options, sys.path[1:]))
     except SystemExit as end:
-        code = end.code if isinstance(end.code, int) else int(end.code is not None)
-        if code and not isinstance(end.code, int):
-            print(end.code, file=sys.stderr)
+        print(end.code, file=sys.stderr)
     except BaseException:
         traceback.print_exc()
     finally:
-        # Not by way of the bring-up's own frames, which are below these.
-        threading._shutdown()
-        atexit._run_exitfuncs()
-        with contextlib.suppress(OSError):
-            sys.stdout.flush()
-            sys.stderr.flush()
-        os._exit(code)
+        os._exit(1)  # not by way of the bring-up's own frames, which are below these
+
+
+def _end_without_modules():
+    """
+    Have forks end without taking down the modules object by object, which copies their memory.
+
+    That would be a third of the processor time of a short program. Call it before they are
+    imported, so that what they have registered for the end comes first.
+
+    Returns:
+        Where to put the modules.
+    """
+    modules = {}
+    ctypes.pythonapi.Py_IncRef(ctypes.py_object(modules))
+
+    def forget():
+        for name, module in modules.items():
+            if sys.modules.get(name) is module and name not in ('builtins', 'sys', '__main__'):
+                del sys.modules[name]
+
+    atexit.register(forget)
+    return modules
 
 
 def serve(base):
@@ -420,7 +441,7 @@ def serve(base):
     Args:
         base: What the interpreter itself had in ``sys.path``.
     """
-    loaded = end_without_teardown()
+    loaded = _end_without_modules()
     for name in sys.argv[2:-1]:
         importlib.import_module(name)
     for name in [name for name in sys.modules if name.startswith(_MAIN_PROGRAMS)]:
@@ -437,4 +458,7 @@ def serve(base):
     tracing.after_fork_in_child()
     if _is_bringup(request['program']):
         _fork_from_here(tracing)
-    _execute(request['program'], base)
+    if _is_ours(request['program']):
+        run_to_the_end(lambda: _execute(request['program'], base))
+    else:  # a text, which may leave objects of ROS to the end of the interpreter
+        _execute(request['program'], base)

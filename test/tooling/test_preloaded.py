@@ -81,16 +81,23 @@ def test_streams_are_unbuffered_where_they_are_asked_to_be():
         ('import os; os._exit(7)', 7),
         ('import os, signal; os.kill(os.getpid(), signal.SIGKILL)', -signal.SIGKILL),
         ('import atexit; atexit.register(print, "at the end")', 0),
+        ('import sys; sys.stdout.close()', 0),
+        ('import threading, time; threading.Timer(0.1, print, ["a thread"]).start()', 0),
     ],
 )
 def test_it_ends_as_a_started_one(code, expected):
+    to_the_end = 'from amr_description.forking import run_to_the_end as run'
     said = []
-    for way in WAYS_TO_START:
+    for way, text in (
+        (subprocess.Popen, code),
+        (preloaded.Popen, code),
+        (preloaded.Popen, f'{to_the_end}\nrun(lambda: exec({code!r}))'),
+    ):
         pipes = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True}
-        with way([sys.executable, '-c', code], **pipes) as process:
+        with way([sys.executable, '-c', text], **pipes) as process:
             out, err = process.communicate(timeout=PATIENCE)
         said.append((process.returncode, out, err.splitlines()[-1:]))
-    assert said[1] == said[0]
+    assert said[1:] == [said[0]] * 2
     assert said[0][0] == expected
 
 
