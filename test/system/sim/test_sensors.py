@@ -1,0 +1,243 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""All sensors of a robot, over DDS: the same bytes in every run, at the instants that are due."""
+
+from collections import defaultdict
+from contextlib import contextmanager
+import hashlib
+import signal
+import struct
+
+from fixtures.cli.commands import started
+import pytest
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import CameraInfo, Image, Imu, LaserScan, PointCloud2
+from simulation_interfaces.msg import SimulationState
+from simulation_interfaces.srv import SetSimulationState
+from std_srvs.srv import Trigger
+from support.paths import ROOT
+
+from amr_description.model.description_file import description_at
+
+MS = 1_000_000
+TOPICS = {
+    '/scan': LaserScan,
+    '/scan/points': PointCloud2,
+    '/camera/image': Image,
+    '/camera/depth_image': Image,
+    '/camera/points': PointCloud2,
+    '/camera/camera_info': CameraInfo,
+    '/imu': Imu,
+}
+
+pytest_plugins = ['amr_description.testing.fixtures']
+
+
+def description(width, height):
+    """Return amr with sensors, the camera's pictures of another size."""
+    text = description_at(str(ROOT / 'urdf/amr_sensors.urdf.xacro'), warn=pytest.fail)
+    for name, size, given in (('width', 320, width), ('height', 240, height)):
+        assert f'<{name}>{size}</{name}>' in text
+        text = text.replace(f'<{name}>{size}</{name}>', f'<{name}>{given}</{name}>')
+    return text
+
+
+SMALL = description(32, 24)
+
+
+class Listener:
+    """Hears all sensors of a simulation; the bytes of each message by topic."""
+
+    def __init__(self, sim, topics=TOPICS):
+        self.sim, self.types = sim, topics
+        self.heard = defaultdict(list)
+        self._subscriptions = [
+            sim.node.create_subscription(kind, topic, self.heard[topic].append, 1000, raw=True)
+            for topic, kind in topics.items()
+        ]
+        best_effort = self.heard['/scan, best effort']
+        self._subscriptions.append(
+            sim.node.create_subscription(
+                LaserScan, '/scan', best_effort.append, qos_profile_sensor_data, raw=True
+            )
+        )
+
+    def __enter__(self):
+        """Wait until the simulator knows who hears it, and no message is under way."""
+        while not all(self.heard[topic] for topic in self.types):
+            self.sim.run(0.1)
+            self.sim.wait(lambda: self.heard['/imu'], 'the IMU')
+        self.begin()
+        return self
+
+    def __exit__(self, *_error):
+        for each in self._subscriptions:
+            self.sim.node.destroy_subscription(each)
+
+    def stamps(self, topic):
+        """Return those of all messages of a topic, ns: the first field, after 4 bytes of CDR."""
+        stamps = (struct.unpack_from('<iI', data, 4) for data in self.heard[topic])
+        return [seconds * 1000 * MS + rest for seconds, rest in stamps]
+
+    def begin(self):
+        """Have the next measurement come, after which nothing older is under way; reset."""
+        self.sim.run(0.2)
+        latest = round(self.sim.time * 10) * 100 * MS
+        self.wait_for(latest)
+        self.forget()
+        self.sim.reset()
+
+    def wait_for(self, stamp):
+        """Wait for the messages of an instant; of the IMU those before it."""
+        for topic in self.types:
+            last = stamp - 10 * MS if topic == '/imu' else stamp
+            self.sim.wait(lambda t=topic, s=last: max(self.stamps(t), default=-1) >= s, topic)
+
+    def forget(self):
+        for messages in self.heard.values():
+            messages.clear()
+
+    def digest(self):
+        return {
+            topic: hashlib.sha256(b''.join(self.heard[topic])).hexdigest() for topic in self.types
+        }
+
+    def drive(self, seconds):
+        """Drive an arc from time 0; return the digest of all that was published meanwhile."""
+        for _ in range(round(2 * seconds)):
+            self.sim.drive(0.4, 0.5, seconds=0.5, stop=False)
+        self.wait_for(seconds * 1000 * MS)
+        return self.digest()
+
+
+@contextmanager
+def in_real_time(sim):
+    """Have time pass by itself, at factor 1."""
+
+    def set_factor(factor):
+        client = sim.node.create_client(SetParameters, '/mujoco_sim/set_parameters')
+        sim.wait(client.service_is_ready, 'the parameters')
+        parameter = Parameter('real_time_factor', value=factor).to_parameter_msg()
+        future = client.call_async(SetParameters.Request(parameters=[parameter]))
+        sim.wait(future.done, 'the factor')
+        sim.node.destroy_client(client)
+
+    set_factor(1.0)
+    sim.ask(SetSimulationState, state=SimulationState(state=SimulationState.STATE_PLAYING))
+    try:
+        yield
+    finally:
+        sim.ask(SetSimulationState, state=SimulationState(state=SimulationState.STATE_PAUSED))
+        set_factor(0.0)
+        sim.reset()
+
+
+@pytest.fixture
+def listener(calm_listener):
+    calm_listener.begin()
+    return calm_listener
+
+
+@pytest.fixture(scope='module')
+def calm_listener(simulation):
+    sim = simulation(SMALL, world='warehouse')
+    with Listener(sim) as listener:
+        yield listener
+
+
+@pytest.mark.parametrize(
+    ('picture', 'seconds'),
+    [((32, 24), 1), pytest.param((320, 240), 20, marks=pytest.mark.long)],
+)
+def test_two_runs_are_byte_equal_noise_included(simulation, picture, seconds):
+    sim = simulation(description(*picture), world='warehouse')
+    with Listener(sim) as listener:
+        first = listener.drive(seconds)
+        stamps = {topic: listener.stamps(topic) for topic in TOPICS}
+        listener.begin()
+        assert listener.drive(seconds) == first
+    instants = [number * 100 * MS for number in range(10 * seconds + 1)]
+    assert all(stamps[topic] == instants for topic in TOPICS if topic != '/imu')
+    assert len(stamps['/imu']) >= 99 * seconds
+    noisy = {topic: listener.heard[topic] for topic in ('/scan', '/camera/image')}
+    assert all(len(set(messages)) == len(messages) for messages in noisy.values())
+
+
+def test_a_pause_stops_them_and_a_step_gives_exactly_those_due(listener):
+    sim, heard = listener.sim, listener.heard
+    sim.run(0.25)
+    listener.wait_for(200 * MS)
+    before = {topic: len(heard[topic]) for topic in TOPICS}
+    sim.run(0.04)  # nothing of 10 Hz is due
+    sim.step(5)
+    listener.wait_for(300 * MS)
+    assert {t: len(heard[t]) - n for t, n in before.items() if t != '/imu'} == dict.fromkeys(
+        set(TOPICS) - {'/imu'}, 1
+    )
+    assert listener.stamps('/scan') == [0, 100 * MS, 200 * MS, 300 * MS]
+
+
+def test_best_effort_and_reliable_subscribers_hear_the_same(listener):
+    listener.sim.run(0.2)
+    listener.wait_for(200 * MS)
+    by_either = listener.heard['/scan, best effort']
+    listener.sim.wait(lambda: len(by_either) == 3, 'the scans, best effort')
+    assert by_either == listener.heard['/scan']
+
+
+def test_the_present_instant_is_measured_only_while_time_stands_still(listener):
+    sim = listener.sim
+    client = sim.node.create_client(Trigger, '/mujoco_sim/measure')
+
+    def measured():
+        future = client.call_async(Trigger.Request())
+        sim.wait(future.done, 'an answer')
+        return future.result()
+
+    sim.wait(client.service_is_ready, 'the service')
+    sim.run(0.25)
+    answer = measured()
+    assert answer.success
+    assert set(TOPICS) - {'/imu'} <= set(answer.message.split())
+    sim.wait(lambda: listener.stamps('/scan')[-1:] == [250 * MS], 'that of now')
+    with in_real_time(sim):
+        answer = measured()
+    assert not answer.success
+    assert 'pause it first' in answer.message
+    sim.node.destroy_client(client)
+
+
+@pytest.mark.parametrize(
+    ('words', 'expected'),
+    [
+        (('echo', '--no-arr', '/camera/image'), r"data: '<sequence type: uint8, length: 2304>'"),
+        (('hz', '-s', '/scan'), r'average rate: (9|10)\.\d+\n'),
+        pytest.param(
+            ('echo', '--no-arr', '/scan'),
+            r"frame_id: lidar_link\n(?s:.)*type: float, length: 360>'",
+            marks=pytest.mark.long,
+        ),
+        pytest.param(
+            ('bw', '/scan'),
+            r'Message size mean: 2.9\d KB min: 2.9\d KB max: 2.9\d KB',
+            marks=pytest.mark.long,
+        ),
+    ],
+)
+def test_commands_say_what_is_published(listener, words, expected):
+    with in_real_time(listener.sim), started('topic', *words) as program:
+        program.expect(expected)
+        assert program.end(signal.SIGINT) == signal.SIGINT
+
+
+def test_a_robot_that_goes_takes_its_topics_away(listener):
+    """At the end of the module."""
+    sim = listener.sim
+    sim.remove(sim.name)
+
+    def are_gone():
+        return not any(map(sim.node.count_publishers, TOPICS))
+
+    sim.wait(are_gone, 'the end of the topics')
