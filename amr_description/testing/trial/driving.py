@@ -9,7 +9,7 @@ near the speed that it is asked for, be it by its odometry or in truth (odometry
 command), is asked for 80 % of what it reaches.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 import math
 from typing import Any
@@ -17,7 +17,7 @@ from typing import Any
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, SimulationError
 from amr_description.model.frames import conjugate, rotate, yaw_of
 from amr_description.testing.lock_step import LatestMessage
 from amr_description.testing.readings import Motion, motion_of_odometry
@@ -42,6 +42,8 @@ _NOWHERE_NEAR = 0.7
 """Of the speed that is asked; wheels that slip may make less of it, too, but not that much."""
 _SLOWEST = 1e-3
 """m/s or rad/s; what is slower does not move."""
+_DISCOVERY = 5.0
+"""s of the wall clock, after which a node that is known has no such topic."""
 _LONGEST_START, _LONGEST_STRETCH, _LONGEST_STOP = 10.0, 60.0, 10.0
 """s of simulated time."""
 
@@ -79,15 +81,15 @@ class DriveTrial:
         self._controller = controller
         node = sim.node
         name, inside = controller.name, controller.namespace
-        subscribed = _topics(sim, node.get_subscriber_names_and_types_by_node, name, inside)
-        found = [(topic, kind) for topic, kind in subscribed if kind in _TYPES]
+        subscribed = node.get_subscriber_names_and_types_by_node
+        found = _topics(sim, subscribed, name, inside, tuple(_TYPES))
         if not found:
             raise LookupError(f'{name} subscribes to no Twist')
         self.topic, kind = found[0]
         self._type = _TYPES[kind]
-        published = _topics(sim, node.get_publisher_names_and_types_by_node, name, inside)
-        topics = [topic for topic, kind in published if kind == _ODOMETRY]
-        self._odometry = LatestMessage(node, Odometry, topics[0]) if topics else None
+        published = node.get_publisher_names_and_types_by_node
+        topics = _topics(sim, published, name, inside, (_ODOMETRY,))
+        self._odometry = LatestMessage(node, Odometry, topics[0][0]) if topics else None
 
     @property
     def parts(self) -> dict[str, tuple[Command, float]]:
@@ -217,12 +219,24 @@ def _along(way: Displacement, axis: int) -> float:
 
 
 def _topics(
-    sim: Simulation, find: Callable[[str, str], Any], controller: str, inside: str
+    sim: Simulation,
+    find: Callable[[str, str], Any],
+    controller: str,
+    inside: str,
+    wanted: Collection[str],
 ) -> list[tuple[str, str]]:
-    """Return the topics of the node of a controller, each with its types."""
+    """Return the topics of some types of the node of a controller, each with its type."""
 
     def is_there() -> bool:
         return (controller, inside) in sim.node.get_node_names_and_namespaces()
 
+    def found() -> list[tuple[str, str]]:
+        topics = find(controller, inside)
+        return [(topic, kind) for topic, kinds in topics for kind in kinds if kind in wanted]
+
     sim.wait(is_there, f"the node of '{controller}'")
-    return [(topic, kind) for topic, kinds in find(controller, inside) for kind in kinds]
+    try:  # a node is known before its topics are
+        sim.wait(found, f"a topic of '{controller}'", _DISCOVERY)
+    except SimulationError:
+        return []
+    return found()
