@@ -12,12 +12,14 @@ import pytest
 from support.examples import examples
 
 from amr_description.errors import SimulationError
-from amr_description.model.frames import Transform
+from amr_description.model.frames import conjugate, rotate, Transform
 from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
 from amr_description.sim.lidar import scan_angles, SimulatedLidar
 from amr_description.sim.state_copy import CopiedScenes, StateCopier
+from amr_description.sim.static_geometry import ShapeKind, visible_shapes
 from amr_description.sim.world import MujocoWorld
+from amr_description.sim.world_file import load_world
 
 POST = """
 <robot name="post">
@@ -396,3 +398,66 @@ def test_a_copy_measures_the_same(tmp_path):
             for each in (scene.world.ray_scene(), scenes.scene(states.copy()))
         ]
         assert ranges[0] == ranges[1]
+
+
+@pytest.fixture(scope='module')
+def warehouse():
+    return MujocoWorld('warehouse')
+
+
+@pytest.fixture(scope='module')
+def solid():
+    shapes = visible_shapes(load_world('warehouse'))
+    return [each for each in shapes if each.kind is not ShapeKind.PLANE]
+
+
+def level_distance(shape, origin, angles):
+    """Return where level rays from a point meet a shape, by plane geometry; inf: nowhere."""
+    rays = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    if shape.kind is ShapeKind.BOX:
+        return _to_box(shape, origin, rays)
+    # The others stand upright: a level section is a circle.
+    assert abs(rotate(shape.rotation, (0.0, 0.0, 1.0))[2]) == pytest.approx(1.0)
+    height = abs(origin[2] - shape.position[2])
+    radius, half = shape.size[0] / 2.0, shape.size[2] / 2.0
+    if shape.kind is ShapeKind.CYLINDER:
+        section = radius if height < half else 0.0
+    else:
+        beyond = max(0.0, height - (half - radius))
+        section = math.sqrt(max(0.0, radius**2 - beyond**2))
+    to_centre = np.array(shape.position[:2]) - origin[:2]
+    along = rays @ to_centre
+    chord = section**2 - (to_centre @ to_centre - along**2)
+    with np.errstate(invalid='ignore'):
+        distance = along - np.sqrt(chord)
+    return np.where((chord > 0.0) & (distance > 0.0), distance, math.inf)
+
+
+def _to_box(shape, origin, rays):
+    """Return where rays enter the three slabs of a box at once."""
+    back = conjugate(shape.rotation)
+    start = np.array(rotate(back, tuple(origin - np.array(shape.position))))
+    axes = np.array([rotate(back, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))])
+    ways, half = rays @ axes, np.array(shape.size) / 2.0
+    with np.errstate(divide='ignore', invalid='ignore'):
+        sides = np.stack(((-half - start) / ways, (half - start) / ways))
+    enter, leave = sides.min(axis=0).max(axis=1), sides.max(axis=0).min(axis=1)
+    return np.where((enter < leave) & (enter > 0.0), enter, math.inf)
+
+
+@examples(8)
+@given(
+    x=st.floats(-3.5, 3.5),
+    y=st.floats(-0.9, 0.9),
+    height=st.sampled_from([0.15, 0.33, 0.69, 1.62]),
+)
+def test_a_scan_of_the_warehouse_is_what_plane_geometry_says(warehouse, solid, x, y, height):
+    origin, angles = np.array([x, y, height]), np.linspace(-math.pi, math.pi, 360)
+    expected = np.min([level_distance(each, origin, angles) for each in solid], axis=0)
+    robot = warehouse.spawn('post', POST.format(parts=''), Transform((x, y, height)))
+    try:
+        scene, sensor = warehouse.ray_scene(), SimulatedLidar(lidar(range_min=0.0), robot)
+        ranges = sensor.measure(0, sensor.body(), scene).ranges[0]
+    finally:
+        warehouse.remove('post')
+    assert ranges == pytest.approx(expected, rel=1e-5)
