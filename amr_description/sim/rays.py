@@ -6,7 +6,7 @@ Rays into the world, for whatever looks at it: lidars, range finders, cameras wi
 What a ray meets is what is visible, as in Gazebo's rendered sensors:
 
 - of the world what MuJoCo's viewer shows, the geoms in groups 0 to 2, moving or not: also meshes,
-  by their true triangles, and height fields;
+  by their true triangles, and height fields, as in :mod:`amr_description.sim.terrain`;
 - of a robot its visuals, true meshes as well; its collisions are not seen, so that a hull around
   a fork does not close the gap. A robot that has no visual at all is seen by its collisions.
 
@@ -26,6 +26,8 @@ from typing import Self
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
+
+from amr_description.sim.terrain import Terrain, terrains
 
 type Floats = NDArray[np.float64]
 type Mask = NDArray[np.int32]
@@ -94,12 +96,14 @@ class RayScene:
                 seen &= ~own | visuals
         self.all_seen: Mask = np.where(seen, _SEEN, _UNSEEN).astype(np.int32)
         self._bounds, self._own_bounds, self._true_bounds = _bounds(model, data)
+        self._terrains: tuple[Terrain, ...] | None = None
 
     def copy(self) -> Self:
         """Return a scene with a model and poses of its own, for another thread; see `take`."""
         twin = copy.copy(self)
         twin.model = copy.copy(self.model)
         twin.data = mujoco.MjData(twin.model)
+        twin._terrains = None  # noqa: SLF001
         twin.take(self)
         return twin
 
@@ -164,22 +168,59 @@ class RayScene:
             cutoff: Geoms that are wholly farther away than this are not met, m.
             normals: Whether the surfaces' normals are asked for.
         """
-        count = len(directions)
-        distances, geoms = np.empty(count), np.empty(count, np.int32)
-        found = np.empty(3 * count) if normals else None
-        rays = np.ascontiguousarray(directions, np.float64).reshape(-1)
+        groups = self.all_seen if mask is None else mask
+        if self._terrains is None:
+            self._terrains = terrains(self.model)
+        fields = [each for each in self._terrains if groups[each.geom] == _SEEN]
+        if fields:
+            groups = groups.copy()
+            groups[[each.geom for each in fields]] = _UNSEEN
         model, bounds = self.model, self._bounds
-        model.geom_group[:] = self.all_seen if mask is None else mask
+        model.geom_group[:] = groups
         model.bvh_aabb[bounds] = self._true_bounds
         try:
-            mujoco.mj_multiRay(
-                model, self.data, origin, rays, _GROUPS, True, -1,
-                geoms, distances, found, count, min(cutoff, _FARTHEST),
-            )  # fmt: skip
+            hits = _cast(model, self.data, origin, directions, cutoff, normals=normals)
         finally:
             model.geom_group[:] = self._own_groups
             model.bvh_aabb[bounds] = self._own_bounds
-        return Hits(distances, geoms, None if found is None else found.reshape(-1, 3))
+        for field in fields:
+            self._cast_at(field, hits, origin, directions, cutoff)
+        return hits
+
+    def _cast_at(
+        self, field: Terrain, hits: Hits, origin: Floats, directions: Floats, cutoff: float
+    ) -> None:
+        """Cast the same rays at a height field, and write what they meet first into ``hits``."""
+        turn = self.data.geom_xmat[field.geom].reshape(3, 3)
+        start = (origin - self.data.geom_xpos[field.geom]) @ turn
+        rays, normals = directions @ turn, hits.normals is not None
+        there = _cast(field.model, field.data, start, rays, cutoff, normals=normals)
+        is_first = (there.geoms >= 0) & ((hits.geoms < 0) | (there.distances < hits.distances))
+        hits.geoms[is_first] = field.geom
+        hits.distances[is_first] = there.distances[is_first]
+        if hits.normals is not None and there.normals is not None:
+            hits.normals[is_first] = there.normals[is_first] @ turn.T
+
+
+def _cast(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    origin: Floats,
+    directions: Floats,
+    cutoff: float,
+    *,
+    normals: bool,
+) -> Hits:
+    """Cast rays at the geoms that are in the group ``_SEEN``."""
+    count = len(directions)
+    distances, geoms = np.empty(count), np.empty(count, np.int32)
+    found = np.empty(3 * count) if normals else None
+    rays = np.ascontiguousarray(directions, np.float64).reshape(-1)
+    mujoco.mj_multiRay(
+        model, data, origin, rays, _GROUPS, True, -1,
+        geoms, distances, found, count, min(cutoff, _FARTHEST),
+    )  # fmt: skip
+    return Hits(distances, geoms, None if found is None else found.reshape(-1, 3))
 
 
 def _colors(model: mujoco.MjModel) -> Floats:

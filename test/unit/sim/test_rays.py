@@ -7,6 +7,7 @@ import threading
 from hypothesis import given, strategies as st
 import mujoco
 import numpy as np
+import pytest
 from support.examples import examples
 
 from amr_description.sim.rays import RayScene
@@ -123,3 +124,36 @@ def test_a_copy_is_cast_at_by_another_thread_while_the_world_goes_on():
     assert len(found) == 20
     copied.take(scene)
     assert (copied.cast(origin, rays).distances == scene.cast(origin, rays).distances).all()
+
+
+FIELD = """
+<mujoco><asset><hfield name="field" nrow="{rows}" ncol="{columns}" size="3 2 1.5 0.5"/></asset>
+  <worldbody>
+    <geom name="field" type="hfield" hfield="field" pos="0.3 -0.2 0.1" euler="5 10 40"/>
+    <geom size="0.5" pos="1 0 2"/>
+  </worldbody>
+</mujoco>
+"""
+
+
+@examples(8)
+@given(seed=st.integers(0, 2**32 - 1), rows=st.integers(2, 9), columns=st.integers(2, 9))
+def test_a_height_field_is_met_where_mujoco_meets_it(seed, rows, columns):
+    random = np.random.default_rng(seed)
+    model = mujoco.MjModel.from_xml_string(FIELD.format(rows=rows, columns=columns))
+    model.hfield_data[:] = random.uniform(0.0, 1.0, rows * columns)
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    scene = RayScene(model, data)
+    rays = random.normal(size=(60, 3))
+    # From above, from below and from beside it.
+    for origin in (random.uniform(2.0, 5.0, 3), random.uniform(-5.0, -2.0, 3)):
+        aimed = random.uniform(-1.5, 1.5, (60, 3)) - origin
+        for directions in (rays, aimed):
+            hits = scene.cast(origin, directions, normals=True)
+            geoms, normal = np.empty(1, np.int32), np.empty(3)
+            for index, ray in enumerate(directions):
+                alone = mujoco.mj_ray(model, data, origin, ray, None, True, -1, geoms, normal)
+                assert hits.distances[index] == pytest.approx(alone, abs=1e-5)
+                assert hits.geoms[index] == geoms[0]
+                assert hits.normals[index] == pytest.approx(normal, abs=1e-4)
