@@ -133,6 +133,7 @@ class Simulation:
             'paused': True,
             'real_time_factor': float(rtf),
             'controllers': str(path_of(str(controllers))) if controllers else '',
+            'camera_renderer': 'rays',  # as exact, and the same, on any machine
             **(parameters or {}),
         }
         self._stack = ExitStack()
