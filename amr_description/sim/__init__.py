@@ -37,6 +37,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``contacts.py``         what touches the collisions of a robot
 ``static_geometry.py``  the visible shapes of a world
 ``rays.py``             rays into the world: what is visible, and where they meet it
+``terrain.py``          height fields as meshes, for rays
 ``lidar.py``            what a lidar measures
 ``cameras/``            pictures of the world, in colour and depth
 ``state_copy.py``       copies of the state, for threads that measure
