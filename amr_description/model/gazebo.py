@@ -13,7 +13,7 @@ import math
 
 from lxml import etree
 
-from amr_description.model.findings import Report
+from amr_description.model.findings import Finding, Report
 from amr_description.model.frames import Quaternion, quaternion_from_rpy, Transform
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
@@ -206,25 +206,30 @@ class GazeboSensor:
 
 def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
     """
-    Return the sensors of all ``<gazebo>`` blocks.
+    Return the sensors of all ``<gazebo>`` blocks that can be read, and all that see the world.
 
-    Raises DescriptionError: one is faulty, other than those that look at the world, whose faults
-    are reported where they are read.
+    What is wrong with the others is told by the checker, see :func:`sensor_faults`; those that
+    look at the world are read by :mod:`amr_description.model.gazebo_sensors`.
     """
-    report = raise_error_of(robot.text)
-    xml = parse_xml(robot.text, robot.source, report)
+    xml = parse_xml(robot.text, robot.source, raise_error_of(robot.text))
     if xml is None:
         return ()
-    strict, lenient = (ElementReader(robot.source, each) for each in (report, lambda _: None))
-    return tuple(
-        _read_sensor(
-            sensor,
-            gazebo.get('reference', ''),
-            lenient if sensor.get('type', '') in WORLD_SENSORS else strict,
-        )
-        for gazebo in xml.iterchildren('gazebo')
-        for sensor in gazebo.iterchildren('sensor')
-    )
+    found = []
+    for gazebo in xml.iterchildren('gazebo'):
+        for element in gazebo.iterchildren('sensor'):
+            faults: list[Finding] = []
+            reader = ElementReader(robot.source, faults.append)
+            sensor = _read_sensor(element, gazebo.get('reference', ''), reader)
+            if not faults or sensor.type in WORLD_SENSORS:
+                found.append(sensor)
+    return tuple(found)
+
+
+def sensor_faults(element: etree._Element, link: str, source: str) -> tuple[Finding, ...]:
+    """Return what is wrong with the ``<sensor>`` of an instrument, such as an IMU, on a link."""
+    faults: list[Finding] = []
+    _read_sensor(element, link, ElementReader(source, faults.append))
+    return tuple(faults)
 
 
 def _read_noises(sensor: etree._Element, reader: ElementReader) -> Iterator[tuple[str, Noise]]:

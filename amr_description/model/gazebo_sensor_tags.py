@@ -52,6 +52,7 @@ _ENCODINGS = {
 }
 _TOPIC = re.compile(r'/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*', re.ASCII)
 _SIMILAR = 0.6
+_ALL_BITS = 0xFFFFFFFF
 _NOISES = {'none': False, 'gaussian': True, 'gaussian_quantized': True}
 
 
@@ -205,6 +206,41 @@ class SensorTag:
                 fix=f'write {self.link}_collision for those of its link',
             )
         return tuple(names)
+
+    def sees_robot(self, path: str) -> bool:
+        """
+        Return whether the ``<visibility_mask>`` of a sensor lets it see the robot's own parts.
+
+        Gazebo shows a sensor what has a bit in common with it: the ``<visibility_flags>`` of a
+        visual, all bits if it has none.
+        """
+        mask = self._bits(self.element.find(path))
+        flags = {link.name: _ALL_BITS for link in self.robot.links if link.visuals}
+        if mask == _ALL_BITS or not flags:
+            return True
+        for gazebo in self.element.getroottree().iterfind('gazebo'):
+            link, element = gazebo.get('reference', ''), gazebo.find('visual/visibility_flags')
+            if link in flags and element is not None:
+                flags[link] = self._bits(element)
+        hidden = [link for link, bits in flags.items() if not bits & mask]
+        if hidden and len(hidden) < len(flags):
+            self.warning(
+                '<visibility_mask> hides some links from it',
+                self.element.find(path),
+                found=quote_all(hidden),
+                expected='all of the robot, or nothing',
+                taken='it sees them',
+            )
+        return len(hidden) < len(flags)
+
+    def _bits(self, element: etree._Element | None) -> int:
+        """Return the bits of a mask, which may be written as 0xFF; all of them by default."""
+        text = '' if element is None else (element.text or '').strip()
+        try:
+            return int(text, 0) & _ALL_BITS if text else _ALL_BITS
+        except ValueError:
+            self.warning('a mask', element, found=quote(text), expected='bits, such as 0xFF')
+            return _ALL_BITS
 
     def optical_frame(self) -> str:
         """Return the link for the messages of a camera whose tag names none (REP 103)."""
@@ -456,7 +492,17 @@ def lidar_of(tag: SensorTag, mount: SensorMount) -> Lidar:
     tag.check_rays(horizontal, vertical)
     least, most, resolution = tag.range(f'{inside}/range')
     noise = tag.noise(f'{inside}/noise')
-    return Lidar(mount, horizontal, vertical, least, most, resolution, noise, scan_topic='')
+    return Lidar(
+        mount,
+        horizontal,
+        vertical,
+        least,
+        most,
+        resolution,
+        noise,
+        sees_robot=tag.sees_robot(f'{inside}/visibility_mask'),
+        scan_topic='',
+    )
 
 
 def camera_of(

@@ -33,12 +33,13 @@ import math
 
 from lxml import etree
 
-from amr_description.model.gazebo import WORLD_SENSORS
+from amr_description.model.gazebo import sensor_faults, WORLD_SENSORS
 from amr_description.model.gazebo_builder import gz_topic
 from amr_description.model.gazebo_classic_sensors import read_classic
 from amr_description.model.gazebo_plugins import PluginElement, sensors_of
 from amr_description.model.gazebo_sensor_tags import (
     camera_of,
+    LEFT_OUT,
     lidar_of,
     SensorTag,
     topic_part,
@@ -123,10 +124,15 @@ def read_sensors(
     found = sensors_of(xml)
     poses = link_poses(robot) if found else {}
     tags = [SensorTag(element, link.strip(), robot, poses) for element, link in found]
+    faulty: set[str] = set()
     sensors: list[tuple[SensorTag, WorldSensor]] = []
     lacking: list[tuple[str, str]] = []
     for tag in tags:
         _check_place(tag)
+        if tag.type in SERVED_ELSEWHERE and not tag.is_faulty:
+            _check_instrument(tag, is_controlled=tag.name in controlled)
+        if tag.is_faulty:
+            faulty.add(tag.name)
         if tag.name in controlled or tag.is_faulty:
             continue
         read = _read(tag)
@@ -136,7 +142,7 @@ def read_sensors(
             sensors += [(tag, each) for each in read]
     sound = _with_own_topics(sensors)
     findings = tuple(each for tag in tags for each in tag.findings)
-    return RobotSensors(tuple(sound), findings, tuple(lacking))
+    return RobotSensors(tuple(sound), findings, tuple(lacking), frozenset(faulty))
 
 
 def range_finder_of(robot: Robot, name: str) -> Lidar | None:
@@ -192,6 +198,13 @@ def _classic_plugin(sensor: etree._Element) -> PluginElement | None:
     """Return the plugin of Gazebo Classic that publishes what a sensor measures."""
     plugins = (PluginElement(each, []) for each in sensor.iterchildren('plugin'))
     return next((each for each in plugins if each.is_classic), None)
+
+
+def _check_instrument(tag: SensorTag, *, is_controlled: bool) -> None:
+    """Report what is wrong with an IMU and its like; one of ``<ros2_control>`` is needed."""
+    for fault in sensor_faults(tag.element, tag.link, tag.robot.source):
+        tag.findings.append(fault if is_controlled else replace(fault, taken=LEFT_OUT))
+        tag.is_faulty = True
 
 
 def _check_place(tag: SensorTag) -> None:

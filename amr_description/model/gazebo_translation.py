@@ -69,8 +69,8 @@ def translate(robot: Robot) -> GazeboTranslation:
         if sensor.get('name', '') in builder.sensors:
             continue  # ros2_control's, which says itself what it cannot do
         kind = sensor.get('type', '')
-        if kind not in SERVED_ELSEWHERE or not (robot.has_link(link) or robot.has_joint(link)):
-            continue  # read above, where its fault is found
+        if kind not in SERVED_ELSEWHERE or sensor.get('name', '').strip() in seeing.faulty:
+            continue  # read above, or left out there
         if not add_instrument(builder, sensor, link):
             builder.lacking.append(('sensor', sensor.get('name', ''), kind))
     return builder.build(seeing.sensors)

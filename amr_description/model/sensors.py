@@ -229,8 +229,10 @@ class RobotSensors:
         sensors: those that are sound.
         findings: what is wrong with them and with the others, which are left out.
         lacking: (name, type) of those that are declared and not simulated.
+        faulty: the names of those that are left out, also of other kinds, such as an IMU.
     """
 
     sensors: tuple[WorldSensor, ...] = ()
     findings: tuple[Finding, ...] = ()
     lacking: tuple[tuple[str, str], ...] = ()
+    faulty: frozenset[str] = frozenset()

@@ -5,16 +5,23 @@
 import pytest
 
 from amr_description.errors import DescriptionError
+from amr_description.model.checks import require_sound
 from amr_description.model.gazebo import gazebo_sensors_of, Noise
+from amr_description.model.gazebo_sensors import robot_sensors_of
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.urdf import parse
 
 
-def noise_of(inside):
+def robot_of(inside):
     text = f"""<robot name="r">
     <link name="base"/>
     <gazebo reference="base"><sensor name="imu" type="imu">
     <imu>{inside}</imu></sensor></gazebo></robot>"""
-    (sensor,) = gazebo_sensors_of(parse(text, 'r.urdf'))
+    return parse(text, 'r.urdf')
+
+
+def noise_of(inside):
+    (sensor,) = gazebo_sensors_of(robot_of(inside))
     return dict(sensor.noise)
 
 
@@ -52,7 +59,7 @@ def test_without_noise_there_is_none():
     [
         (
             on_x('', 'perlin'),
-            r'r.urdf:4: gazebo sensor "imu": angular_velocity.x: type of <noise>: found "perlin", '
+            'r.urdf:4: gazebo sensor "imu": angular_velocity.x: type of <noise>: found "perlin", '
             'expected one of none, gaussian, gaussian_quantized',
         ),
         (on_x('<stddev>-1</stddev>'), '<stddev>: found "-1", expected a finite number from 0 on'),
@@ -60,7 +67,19 @@ def test_without_noise_there_is_none():
         (on_x('<bias_mean/>'), '<bias_mean>: found "", expected a finite number'),
     ],
 )
-def test_what_cannot_be_is_one_line(inside, message):
-    with pytest.raises(DescriptionError, match=message) as refusal:
-        noise_of(inside)
-    assert '\n' not in str(refusal.value)
+def test_what_cannot_be_is_one_line_and_the_unit_is_left_out(inside, message):
+    robot = robot_of(inside)
+    (finding,) = robot_sensors_of(robot).findings
+    assert message in finding.text and '\n' not in finding.text
+    assert finding.as_taken().text.endswith('; the sensor is left out')
+    assert gazebo_sensors_of(robot) == ()
+    assert not translate(robot).controllers
+
+
+def test_a_unit_of_ros2_control_that_cannot_be_is_refused():
+    control = """<ros2_control name="c" type="sensor"><hardware><plugin>p</plugin></hardware>
+      <sensor name="imu"><state_interface name="orientation.x"/></sensor></ros2_control>"""
+    robot = robot_of(on_x('<mean>inf</mean>'))
+    text = robot.text.replace('</robot>', f'{control}</robot>')
+    with pytest.raises(DescriptionError, match='<mean>: found "inf", expected a finite number'):
+        require_sound(text, strict=False)

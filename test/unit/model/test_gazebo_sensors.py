@@ -6,9 +6,10 @@ import math
 
 import pytest
 
-from amr_description.errors import DescriptionError
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import gazebo_sensors_of, GazeboSensor
+from amr_description.model.gazebo_sensors import robot_sensors_of
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.urdf import parse
 
 
@@ -42,14 +43,14 @@ def test_no_sensor_is_none():
     'inside, message',
     [
         ('<gazebo><sensor name="a"/></gazebo>', '"a": its <gazebo> has no attribute "reference"'),
-        ('<gazebo reference="base"><sensor/></gazebo>', '<sensor> has no attribute "name"'),
+        ('<gazebo reference="base"><sensor/></gazebo>', '"": it has no attribute "name"'),
         (posed('1 2 3'), '"a": <pose>: found "1 2 3", expected 6 numbers, finite'),
-        (
-            posed('1 2 3 0 0 nan'),
-            'r.urdf:3: gazebo sensor "a": <pose>: found "1 2 3 0 0 nan"',
-        ),
+        (posed('1 2 3 0 0 nan'), '"a": <pose>: found "1 2 3 0 0 nan"'),
     ],
 )
-def test_faults_are_reported_with_their_line(inside, message):
-    with pytest.raises(DescriptionError, match=message):
-        gazebo_sensors_of(robot_of(inside))
+def test_faults_are_told_with_their_line_and_the_sensor_is_left_out(inside, message):
+    robot = robot_of(inside.replace('<sensor', '<sensor type="imu"'))
+    (finding,) = robot_sensors_of(robot).findings
+    assert f'r.urdf:3: gazebo sensor {message}' in finding.text
+    assert gazebo_sensors_of(robot) == ()
+    assert not translate(robot).controllers

@@ -141,6 +141,32 @@ def test_a_contact_sensor_has_collisions_and_a_topic():
     assert not found.findings and found.sensors[0].collisions == ('front_collision',)
 
 
+@pytest.mark.parametrize(
+    'mask, base, wheel, sees, told',
+    [
+        ('', '1', '1', True, 0),
+        ('<visibility_mask>2</visibility_mask>', '1', '0x1', False, 0),
+        ('<visibility_mask>0xFFFFFFFE</visibility_mask>', '1', '3', True, 1),
+        ('<visibility_mask>all</visibility_mask>', '1', '1', True, 1),
+        ('<visibility_mask>3</visibility_mask>', '1', '1', True, 0),
+    ],
+)
+def test_a_mask_may_hide_the_robot_from_its_lidar(mask, base, wheel, sees, told):
+    shape = '<visual><geometry><sphere radius="1"/></geometry></visual>'
+    flags = ''.join(
+        f'<gazebo reference="{link}"><visual><visibility_flags>{bits}</visibility_flags></visual>'
+        '</gazebo>'
+        for link, bits in (('base', base), ('wheel', wheel))
+    )
+    text = f"""<robot name="r"><link name="base">{shape}</link><link name="wheel">{shape}</link>
+      <joint name="a" type="fixed"><parent link="base"/><child link="wheel"/></joint>{flags}
+      <gazebo reference="base"><sensor name="s" type="lidar"><lidar>{SCAN}{RANGE}{mask}</lidar>
+      </sensor></gazebo></robot>"""
+    found = robot_sensors_of(parse(text))
+    assert [each.sees_robot for each in found.sensors] == [sees]
+    assert len(found.findings) == told
+
+
 def test_several_lidars_without_a_topic_have_their_names():
     lidar = (
         f"""<lidar><scan><horizontal><max_angle>1</max_angle></horizontal></scan>{RANGE}</lidar>"""
