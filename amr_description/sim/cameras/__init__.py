@@ -9,6 +9,9 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 ``gl_renderer.py``          one that draws by OpenGL
 ``gl_context.py``           … its context: EGL, OSMesa
 ``choice.py``               which of the two
+``ray_caster.py``           where the rays of a camera end
+``screen.py``               … these rays, as a grid
+``surfaces.py``             … the surfaces of simple shapes, as arrays of depths
 ``shading.py``              the colours of what rays hit: light
 ``textures.py``             … and textures
 ``pictures.py``             what messages are made of them: noise, JPEGs, clouds of points
