@@ -179,6 +179,23 @@ def test_the_other_thread_measures_the_same(host, monkeypatch):
     assert measured[0] == measured[1]
 
 
+def test_a_lidar_whose_rays_take_long_leaves_the_control_thread(host, monkeypatch):
+    monkeypatch.setattr(lidar, 'LONGEST', 0.0)
+    threads, measure = [], SimulatedLidar.measure
+
+    def noted(*arguments):
+        threads.append(threading.current_thread().name)
+        return measure(*arguments)
+
+    monkeypatch.setattr(SimulatedLidar, 'measure', noted)
+    host.spawn('amr', '/', LIDAR)
+    with host.heard(LaserScan, '/scan') as scans:
+        host.next(scans, 4)
+    here = threading.current_thread().name
+    # The first one does not count: it also finds out what is the lidar's own.
+    assert threads == [here, here, 'sensors', 'sensors']
+
+
 def test_a_robot_that_goes_while_its_lidar_is_in_work(host, monkeypatch):
     monkeypatch.setattr(lidar, 'MOST_RAYS', 0)
     host.is_paced = True

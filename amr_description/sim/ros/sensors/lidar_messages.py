@@ -3,9 +3,8 @@
 """
 What lidars measure, as the bytes of LaserScan, PointCloud2 and Range.
 
-Everything but the stamp and the numbers that are measured is serialized once. Processor time of
-one publication of 360 ranges and intensities, µs, to a reader in another process: as a message of
-rclpy 30, as bytes 16, of which 5 are ours.
+Everything but the stamp and the numbers that are measured is serialized once: 360 ranges and
+intensities to a reader in another process take 10 µs of processor time, as a message of rclpy 19.
 """
 
 from collections.abc import Callable
