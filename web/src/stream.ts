@@ -23,6 +23,7 @@ export class StateStream {
   takeSample(buffer: ArrayBuffer): Sample | null {
     const sample = this.attempt(() => decodeSample(buffer));
     this.counts.sensed += sample === null ? 0 : 1;
+    this.isFresh ||= sample !== null; // it is shown with the latest state, if that is the same
     return sample;
   }
 
@@ -42,7 +43,7 @@ export class StateStream {
     return state;
   }
 
-  /** The latest state, once. */
+  /** The latest state, once after each state and each sample. */
   fresh(): State | null {
     const state = this.isFresh ? this.latest : null;
     this.isFresh = false;

@@ -3,6 +3,7 @@
 """The node viewer in a ROS graph: what a page sees of robots, and how it moves them."""
 
 from contextlib import contextmanager
+import json
 import signal
 import struct
 
@@ -21,15 +22,17 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import JointState, LaserScan
 from std_msgs.msg import String
 from support.page import Page
 from support.running_programs import PATIENCE, Program
+from support.sensor_messages import scan
 from test_viewer_server import ask, url_of, viewer
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory
 
 from amr_description.ros.service_calls import wait_until
+from amr_description.viewer.samples import SAMPLE_KIND
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 WHEELS = [
@@ -205,6 +208,43 @@ def test_a_page_sees_what_moves(host, url):
         host.until(lambda: publish() or page.last('reset'))
         count = len(page.states)
         host.until(lambda: publish() or len(page.states) > count)
+
+
+def test_a_sensor_is_heard_while_a_page_shows_it(host, url):
+    """By one subscription, whose message comes as it was published."""
+    robot = Robot(host.node)
+    lidar = host.node.create_publisher(LaserScan, '/front/scan', 10)
+    wanted = {'topic': '/front/scan', 'robot': '/', 'kind': 'scan'}
+    with Page(url) as page, Page(url) as other:
+        for each in (page, other):
+            host.until(lambda each=each: (each.last('graph') or {}).get('sensors'))
+            (info,) = each.last('graph')['sensors']
+            assert wanted.items() <= info.items()
+        assert lidar.get_subscription_count() == 0
+        for each in (page, other):
+            each.say('watch', parts=[], topics=['/front/scan'])
+        host.until(lambda: lidar.get_subscription_count() == 1)
+        host.until(lambda: lidar.publish(scan('laser')) or samples(page) and samples(other))
+        head, ranges = samples(page)[-1]
+        assert (head['origin']['frame'], ranges) == ('laser', [1.0, 2.0])
+        page.say('watch', parts=[], topics=[])
+        other.ask('play', 1, simulator='/none')
+        assert lidar.get_subscription_count() == 1
+        other.close()
+        host.until(lambda: lidar.get_subscription_count() == 0)
+        host.node.destroy_publisher(lidar)
+        host.until(lambda: page.last('graph')['sensors'] == [])
+    robot.vanish()
+
+
+def samples(page):
+    """Head and numbers of each sample of a sensor so far."""
+    found = []
+    for frame in [*page.states]:
+        if frame[0] == SAMPLE_KIND:
+            end = 4 + struct.unpack_from('<H', frame, 2)[0]
+            found.append((json.loads(frame[4:end]), np.frombuffer(frame[end:], '<f4').tolist()))
+    return found
 
 
 def test_frames_of_a_robot_with_a_tf_of_its_own_are_called_after_it(host, url):

@@ -101,6 +101,7 @@ export class SensorsPanel implements Panel {
 
   private row(info: SensorInfo): Row {
     const { topic, kind, message } = info;
+    const name = topic.replace(/\/compressed$/, ''); // the type says so
     const knob = h('button', {
       type: 'button',
       role: 'switch',
@@ -120,7 +121,7 @@ export class SensorsPanel implements Panel {
       this.showSwitch(row);
     });
     row.element.append(
-      h('span', { class: 'unit-name', title: `${topic} (${message})` }, topic),
+      h('span', { class: 'unit-name', title: `${topic} (${message})` }, name),
       h('span', { class: 'chip', title: message }, message.split('/').at(-1) ?? message),
       knob,
       row.timing,
