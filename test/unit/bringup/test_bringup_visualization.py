@@ -3,6 +3,7 @@
 """When the page is served, and RViz where it is installed."""
 
 from pathlib import Path
+import re
 
 import pytest
 from support.paths import ROOT
@@ -109,6 +110,22 @@ def test_what_rviz_shows_is_there(file):
     frames = {'odom', *(line.split('"')[1] for line in link_lines())}
     assert shown['Global Options']['Fixed Frame'] in frames
     assert shown['Views']['Current']['Target Frame'] in {*frames, '<Fixed Frame>'}
+
+
+@pytest.mark.parametrize('file', sorted((ROOT / 'config/rviz').iterdir()), ids=lambda p: p.name)
+def test_rviz_asks_for_the_sensors_of_our_robot_and_of_none_that_is_expensive(file):
+    shown = yaml.safe_load(file.read_text())['Visualization Manager']
+    kinds = {'LaserScan', 'PointCloud2', 'Image', 'Camera'}
+    displays = [each for each in shown['Displays'] if each['Class'].split('/')[1] in kinds]
+    assert {each['Class'].split('/')[1] for each in displays} == kinds
+    lidar, camera = re.findall(
+        r'<topic>(scan|camera)</topic>', (ROOT / 'urdf/amr_sensors.urdf.xacro').read_text()
+    )
+    topics = {f'/{camera}/{name}' for name in ('image', 'depth_image', 'points')}
+    assert {each['Topic']['Value'] for each in displays} == {f'/{lidar}', *topics}
+    assert {each['Name'] for each in displays if each['Enabled']} == {'LaserScan'}
+    # Sensors of real robots are published by best effort.
+    assert {each['Topic']['Reliability Policy'] for each in displays} == {'Best Effort'}
 
 
 def link_lines():
