@@ -313,6 +313,12 @@ class Page:
         elif kind == 'mouseReleased':
             self._pressed = None
 
+    def wheel(self, selector, turn):
+        """Turn the wheel over the middle of an element, pixels; towards the user is positive."""
+        x, y = self.centre_of(selector)
+        parameters = {'type': 'mouseWheel', 'x': x, 'y': y, 'deltaX': 0, 'deltaY': turn}
+        self.call('Input.dispatchMouseEvent', parameters)
+
     def screenshot(self, path):
         """Write what is seen as a PNG."""
         path.write_bytes(self.picture('png'))

@@ -69,11 +69,41 @@ def write_film(browser):
         (IMAGES / 'driving.webp').write_bytes(moving)
 
 
+def write_sensors(browser, name='sensors', **look):
+    """Write the picture of the page with sensors; slowly, as the camera takes its time as well."""
+    words = ('simulation', 'world:=warehouse', 'sensors:=true', 'rtf:=0.2')
+    look = {'width': 1280, 'height': 800, **look}
+    with page_of(browser, *words, **look) as page:
+        page.click('#tab-sensors')
+        page.click('[aria-label="Show /camera/image/compressed"]')
+        page.click('[aria-label="Show /camera/points"]')
+        drive(page, ('KeyW', 1.5), ('KeyA', 0.5), ('KeyW', 1.0))
+        drag(page, 'canvas.scene', 40, 25)
+        for _ in range(6):  # away from the robot, so that the shelves come into view
+            page.wheel('canvas.scene', 240)
+        drawn = page.evaluate("amr.now.pictures['/camera/image/compressed']")
+        page.wait_until(f"amr.now.pictures['/camera/image/compressed'] > {drawn}")
+        page.wait_until("amr.now.scene.sensors['/scan'].points > 100")
+        frames = page.evaluate('amr.now.scene.frames')
+        page.wait_until(f'amr.now.scene.frames > {frames} + 10')  # finely drawn again
+        (IMAGES / f'{name}.webp').write_bytes(page.picture('webp', quality=72))
+
+
+def drag(page, selector, right, down):
+    """Drag from the middle of an element, pixels."""
+    x, y = page.centre_of(selector)
+    page.mouse('mousePressed', x, y)
+    for share in (0.5, 1.0):
+        page.mouse('mouseMoved', x + share * right, y + share * down)
+    page.mouse('mouseReleased', x + right, y + down)
+
+
 def main():
     """Write all of them."""
     IMAGES.mkdir(exist_ok=True)
     with chromium.Chromium() as browser:
         write_film(browser)
+        write_sensors(browser)
         with page_of(browser, 'simulation', 'world:=warehouse') as page:
             drive(page, ('KeyW', 2.0), ('KeyA', 1.0), ('KeyW', 2.0), ('KeyD', 1.5), ('KeyW', 1.0))
             page.screenshot(IMAGES / 'simulation.png')
