@@ -33,6 +33,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``message_types.py``      classes of messages, services and actions by their names
 ``cdr.py``                serialized messages, read without making messages of them
 ``cdr_sensors.py``        … those of sensors, whose arrays are not copied
-``cdr_template.py``       … and made without making messages
+``cdr_template.py``       … and made without making messages: by a template
+``cdr_writer.py``         … likewise, field by field
 ========================= =========================================================================
 """

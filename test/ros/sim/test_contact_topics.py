@@ -7,6 +7,7 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data, QoSProfile
+from rclpy.serialization import deserialize_message, serialize_message
 from ros_gz_interfaces.msg import Contacts, Entity
 from support.running_programs import PATIENCE
 
@@ -15,7 +16,13 @@ from amr_description.model.frames import Transform
 from amr_description.model.sensors import ContactSensor, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.ros.sensors.contact import CONTACTS_STATE
+from amr_description.sim.contacts import Contact, ContactPoint
+from amr_description.sim.ros.sensors.contact import (
+    contacts_bytes,
+    CONTACTS_STATE,
+    contacts_state_bytes,
+    ContactsSample,
+)
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 
@@ -124,6 +131,59 @@ def test_a_bumper_of_classic_says_at_its_rate_what_touches_it_in_its_frame(start
     # The corners of the box as the link foot has them, 0.5 m before its middle.
     assert {round(each.x, 2) for each in state.contact_positions} == {-0.6, -0.4}
     assert all(abs(each.z) < 1e-3 for each in state.contact_positions)
+
+
+def sample(frame):
+    """Names of odd lengths: what aligns numbers differs with each."""
+    points = tuple(
+        ContactPoint((i + 0.5, 2.0, 3.0), (0.0, 0.6, 0.8), (4.0, -5.0, float(i)), 1e-3)
+        for i in range(3)
+    )
+    contacts = (
+        Contact('a::b::c', 2**40, 'ground::link::collision', 1, points),
+        Contact('a::b::Stoßfänger', 7, 'd', 8, points[:1]),
+    )
+    return ContactsSample(3_000_000_007, frame, contacts)
+
+
+def vector(message):
+    return (message.x, message.y, message.z)
+
+
+@pytest.mark.parametrize('frame', ['', 'w', 'wo', 'world', 'robot1/bumper'])
+@pytest.mark.parametrize(
+    ('encode', 'kind'), [(contacts_bytes, Contacts), (contacts_state_bytes, ContactsState)]
+)
+def test_messages_are_those_that_rclpy_would_make(encode, kind, frame):
+    given = sample(frame)
+    data = encode(given)
+    message = deserialize_message(data, kind)
+    assert len(serialize_message(message)) == len(data)
+    assert data == encode(given), 'also what is between the fields'
+    assert nanoseconds(message.header.stamp) == given.stamp
+    assert message.header.frame_id == frame
+    found = message.contacts if kind is Contacts else message.states
+    for each, contact in zip(found, given.contacts, strict=True):
+        forces = [point.force for point in contact.points]
+        if kind is Contacts:
+            pairs = (each.collision1, each.collision2)
+            assert [pair.id for pair in pairs] == [contact.own_id, contact.other_id]
+            names = [pair.name for pair in pairs]
+            positions, normals = each.positions, each.normals
+            assert [vector(w.body_1_wrench.force) for w in each.wrenches] == forces
+            opposite = [tuple(-value for value in force) for force in forces]
+            assert [vector(w.body_2_wrench.force) for w in each.wrenches] == opposite
+        else:
+            names = [each.collision1_name, each.collision2_name]
+            positions, normals = each.contact_positions, each.contact_normals
+            assert [vector(w.force) for w in each.wrenches] == forces
+            total = tuple(map(sum, zip(*forces, strict=True)))
+            assert vector(each.total_wrench.force) == total
+            assert 'time: [3.7]' in each.info
+        assert names == [contact.own, contact.other]
+        assert [vector(each) for each in positions] == [each.position for each in contact.points]
+        assert [vector(each) for each in normals] == [each.normal for each in contact.points]
+        assert [*each.depths] == [point.depth for point in contact.points]
 
 
 def test_what_a_sensor_names_and_is_not_there_is_told(start):

@@ -11,23 +11,20 @@ The first collision is that of the sensor; the normal points towards it, and the
 on it. As in new Gazebo there is no torque.
 """
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+import itertools
 
-from geometry_msgs.msg import Vector3, Wrench
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Severity
-from amr_description.control.ros.encoders import filling
 from amr_description.model.collision_names import find_collisions, gazebo_name
-from amr_description.model.frames import rotate, Vector
+from amr_description.model.frames import rotate
 from amr_description.model.robot import Robot
 from amr_description.model.sensors import ContactSensor
+from amr_description.ros.cdr_writer import Writer
 from amr_description.ros.message_types import message_type
-from amr_description.ros.messages import fill_stamp
-from amr_description.sim.contacts import Contact, ContactPoint, ContactReader, geoms_of
+from amr_description.sim.contacts import Contact, ContactReader, geoms_of
 from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
 from amr_description.text import quote, quote_all
@@ -35,6 +32,8 @@ from amr_description.text import quote, quote_all
 CONTACTS = 'ros_gz_interfaces/msg/Contacts'
 CONTACTS_STATE = 'gazebo_msgs/msg/ContactsState'
 
+_COLLISION = 5
+"""Of ``ros_gz_interfaces/msg/Entity``."""
 _QOS = QoSProfile(depth=10)
 
 
@@ -66,7 +65,7 @@ class ContactTopics(SensorTopics):
             context.node.create_publisher(
                 message, context.topic(sensor.topic, sensor.mount), _QOS
             ),
-            filling(_FILLERS[sensor.message](), message()),
+            _ENCODERS[sensor.message],
         )
 
     @property
@@ -145,74 +144,63 @@ def _names(robot: Robot, link: str) -> str:
     return ', '.join(names) or 'none'
 
 
-def _contacts_filler() -> Callable[[ContactsSample, Any], None]:
-    """Return the converter to ``ros_gz_interfaces/msg/Contacts``."""
-    contact_type = message_type('ros_gz_interfaces/msg/Contact')
-    wrench_type = message_type('ros_gz_interfaces/msg/JointWrench')
-
-    wrenches: list[Any] = []  # each costs 20 µs to make, and is filled again
-
-    def filled_wrenches(points: Sequence[ContactPoint], first: int) -> list[Any]:
-        last = first + len(points)
-        wrenches.extend(wrench_type() for _ in range(last - len(wrenches)))
-        for point, message in zip(points, wrenches[first:last], strict=True):
-            one, other = message.body_1_wrench.force, message.body_2_wrench.force
-            one.x, one.y, one.z = x, y, z = point.force
-            other.x, other.y, other.z = -x, -y, -z
-        return wrenches[first:last]
-
-    def fill(sample: ContactsSample, message: Any) -> None:
-        fill_stamp(sample.stamp, message.header.stamp)
-        message.header.frame_id = sample.frame_id
-        contacts, count = [], 0
-        for each in sample.contacts:
-            contact = contact_type()
-            contact.collision1.id, contact.collision1.name = each.own_id, each.own
-            contact.collision2.id, contact.collision2.name = each.other_id, each.other
-            contact.collision1.type = contact.collision2.type = contact.collision1.COLLISION
-            contact.positions = [_vector(point.position) for point in each.points]
-            contact.normals = [_vector(point.normal) for point in each.points]
-            contact.depths = [point.depth for point in each.points]
-            contact.wrenches = filled_wrenches(each.points, count)
-            count += len(each.points)
-            contacts.append(contact)
-        message.contacts = contacts
-
-    return fill
+def contacts_bytes(sample: ContactsSample) -> bytes:
+    """Return a ``ros_gz_interfaces/msg/Contacts``."""
+    out = _begin(sample)
+    for each in sample.contacts:
+        for number, name in ((each.own_id, each.own), (each.other_id, each.other)):
+            out.long(number)
+            out.text(name)
+            out.octet(_COLLISION)
+        _write_points(out, each)
+        out.count(len(each.points))
+        for point in each.points:
+            x, y, z = point.force
+            out.stamp(0)
+            out.text('')
+            for _ in ('body_1', 'body_2'):  # names and ids, which gz leaves out as well
+                out.text('')
+                out.count(0)
+            out.doubles((x, y, z, 0.0, 0.0, 0.0, -x, -y, -z, 0.0, 0.0, 0.0))
+    return out.bytes()
 
 
-def _contacts_state_filler() -> Callable[[ContactsSample, Any], None]:
-    """Return the converter to ``gazebo_msgs/msg/ContactsState``."""
-    state_type = message_type('gazebo_msgs/msg/ContactState')
-
-    def fill(sample: ContactsSample, message: Any) -> None:
-        fill_stamp(sample.stamp, message.header.stamp)
-        message.header.frame_id = sample.frame_id
-        states = []
-        for number, each in enumerate(sample.contacts, start=1):
-            seconds, rest = divmod(sample.stamp, NANOSECONDS)
-            state = state_type(
-                info=f'Debug:  i: ({number}/{len(sample.contacts)})     my_geom: [{each.own}]  '
-                f'other_geom: [{each.other}]        time: [{seconds}.{rest}]\n',
-                collision1_name=each.own,
-                collision2_name=each.other,
-                wrenches=[Wrench(force=_vector(point.force)) for point in each.points],
-                contact_positions=[_vector(point.position) for point in each.points],
-                contact_normals=[_vector(point.normal) for point in each.points],
-                depths=[point.depth for point in each.points],
-            )
-            total = zip(*(point.force for point in each.points), strict=True)
-            x, y, z = map(sum, total)
-            state.total_wrench.force = _vector((x, y, z))
-            states.append(state)
-        message.states = states
-
-    return fill
+def contacts_state_bytes(sample: ContactsSample) -> bytes:
+    """Return a ``gazebo_msgs/msg/ContactsState``."""
+    out = _begin(sample)
+    seconds, rest = divmod(sample.stamp, NANOSECONDS)
+    for number, each in enumerate(sample.contacts, start=1):
+        out.text(
+            f'Debug:  i: ({number}/{len(sample.contacts)})     my_geom: [{each.own}]  '
+            f'other_geom: [{each.other}]        time: [{seconds}.{rest}]\n'
+        )
+        out.text(each.own)
+        out.text(each.other)
+        out.count(len(each.points))
+        wrenches = [(*point.force, 0.0, 0.0, 0.0) for point in each.points]
+        total = map(sum, zip(*wrenches, strict=True))
+        out.doubles([*itertools.chain.from_iterable(wrenches), *total])
+        _write_points(out, each)
+    return out.bytes()
 
 
-def _vector(values: Vector) -> Vector3:
-    x, y, z = values
-    return Vector3(x=x, y=y, z=z)
+def _begin(sample: ContactsSample) -> Writer:
+    """Write the header, and how many contacts there are."""
+    out = Writer()
+    out.stamp(sample.stamp)
+    out.text(sample.frame_id)
+    out.count(len(sample.contacts))
+    return out
 
 
-_FILLERS = {CONTACTS: _contacts_filler, CONTACTS_STATE: _contacts_state_filler}
+def _write_points(out: Writer, contact: Contact) -> None:
+    """Write positions, normals and depths."""
+    points = contact.points
+    for vectors in ([each.position for each in points], [each.normal for each in points]):
+        out.count(len(points))
+        out.doubles([value for vector in vectors for value in vector])
+    out.count(len(points))
+    out.doubles([each.depth for each in points])
+
+
+_ENCODERS = {CONTACTS: contacts_bytes, CONTACTS_STATE: contacts_state_bytes}
