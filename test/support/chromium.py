@@ -61,9 +61,7 @@ class Chromium:
     """
 
     def __init__(self, *flags):
-        self._profile = tempfile.TemporaryDirectory(
-            prefix='amr-browser-', ignore_cleanup_errors=True
-        )  # its helper processes may still write
+        self._profile = tempfile.TemporaryDirectory(prefix='amr-browser-')
         profile = f'--user-data-dir={self._profile.name}'
         command = [executable(), *_FLAGS, *flags, profile, 'about:blank']
         self._process = subprocess.Popen(
@@ -74,6 +72,7 @@ class Chromium:
             env=_environment(),
         )
         self._stack = ExitStack()
+        self._rest = None
         try:
             self._connection = self._stack.enter_context(
                 connect(self._address(), max_size=None, open_timeout=PATIENCE)
@@ -91,7 +90,8 @@ class Chromium:
         """Return where it listens; what it says on stderr is read on, so that it never blocks."""
         for line in self._process.stderr:
             if found := re.search(r'DevTools listening on (ws://\S+)', line):
-                threading.Thread(target=self._process.stderr.read, daemon=True).start()
+                self._rest = threading.Thread(target=self._process.stderr.read, daemon=True)
+                self._rest.start()
                 return found[1]
         raise BrowserError(f'the browser ended with {self._process.wait()} before it listened')
 
@@ -109,6 +109,9 @@ class Chromium:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+        if self._rest:
+            # Its helper processes have that stream too, and write into the profile to their end.
+            self._rest.join(PATIENCE)
         self._profile.cleanup()
 
     def open(self, url, *, pixels=FEW_PIXELS, is_beside=False, **look):

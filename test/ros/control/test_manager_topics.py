@@ -84,7 +84,9 @@ def test_activity_is_told_to_whoever_comes_late_and_at_every_change(host):
             'controllers': {'joint_state_broadcaster': (1, 'unconfigured')},
             'hardware': hardware,
         }
+        # One after the other: who has not been sent a latched message yet gets the next one.
         assert host.client.configure('joint_state_broadcaster')
+        latest(host, h, lambda m: [c.state.label for c in m.controllers] == ['inactive'])
         assert host.client.switch(activate=['joint_state_broadcaster']) is None
         latest(host, h, lambda m: [c.state.label for c in m.controllers] == ['active'])
     said = [states(message)['controllers']['joint_state_broadcaster'] for message in h]

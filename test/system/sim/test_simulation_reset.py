@@ -54,7 +54,11 @@ YAML = """
     wheel_radius: 0.1
     base_frame_id: base_footprint
 """
-HEARD = ('joint_states', 'odom', 'odom_tf', 'wheel_tf')
+OF_THE_SIMULATOR = ('joint_states', 'odom', 'odom_tf')
+OF_THE_PUBLISHER = 'wheel_tf'
+HEARD = (*OF_THE_SIMULATOR, OF_THE_PUBLISHER)
+LONGEST_DELAY = 100 * MS
+"""ns by which the wheels' transforms, sent each 50 ms by a process of its own, may be behind."""
 LONGEST_SILENCE = 500 * MS
 """
 ns between two messages, beginning at the reset. They come every 10 to 50 ms, but a writer keeps
@@ -235,6 +239,8 @@ def tick(sim, driver, stamp):
     sim.do(StepSimulation, steps=TICK_STEPS)
     due = [name for name, stamps in EXPECTED.items() if stamp in stamps]
     sim.wait(lambda: all(driver.heard[name][-1:] == [stamp] for name in due))
+    if stamp >= LONGEST_DELAY:
+        sim.wait(lambda: driver.heard[OF_THE_PUBLISHER][-1:] >= [stamp - LONGEST_DELAY])
 
 
 def test_ten_resets_in_lock_step_lose_nothing_and_begin_at_exactly_zero(sim, publisher, driver):
@@ -278,7 +284,9 @@ def reset_and_drive_on(sim, driver):
     sim.wait(lambda: any(stamp < before for stamp in driver.heard['odom']))
     sim.wait(lambda: driver.travelled > 0.05)
     sim.wait(lambda: all(len(since_reset(driver.heard[name])) > 5 for name in HEARD))
-    for name in HEARD:
+    # How much simulated time passes until another process gets a processor, who knows: what the
+    # publisher of the wheels' transforms does at a reset is looked at in lock-step, above.
+    for name in OF_THE_SIMULATOR:
         stamps = since_reset(driver.heard[name])
         assert stamps[0] <= LONGEST_SILENCE, name
         assert max(after - last for last, after in pairwise(stamps)) <= LONGEST_SILENCE, name
