@@ -223,21 +223,32 @@ def _own_parts(
     distances, geoms, normals = first.distances, first.geoms, first.normals
     assert normals is not None, 'they were asked for'
     distances[geoms < 0] = math.inf
-    is_behind = np.einsum('ij,ij->i', directions, normals) >= 0.0
-    is_through = np.isfinite(distances) & ((distances < lidar.range_min) | is_behind)
-    for ray in np.flatnonzero(is_through):
-        direction = directions[ray]
-        passed = max(distances[ray] + _SKIN, lidar.range_min)
-        distances[ray], geoms[ray] = math.inf, -1
-        for _ in range(_MOST_LAYERS):
-            hits = scene.cast(
-                origin + passed * direction, direction[None], mask=mask, normals=True
-            )
-            if hits.geoms[0] < 0 or hits.normals is None:
-                break
-            passed += float(hits.distances[0])
-            if direction @ hits.normals[0] < 0.0:
-                distances[ray], geoms[ray] = passed, hits.geoms[0]
-                break
-            passed += _SKIN
+    rays = np.flatnonzero(
+        np.isfinite(distances)
+        & ((distances < lidar.range_min) | (_along(normals, directions) >= 0.0))
+    )
+    passed = np.maximum(distances[rays] + _SKIN, lidar.range_min)
+    distances[rays], geoms[rays] = math.inf, -1
+    if not len(rays):
+        return first
+    cast = scene.cast_each_at_start(mask)
+    for _ in range(_MOST_LAYERS):
+        ways = directions[rays]
+        hits = cast(origin + passed[:, None] * ways, ways)
+        assert hits.normals is not None, 'they are always there'
+        passed += hits.distances
+        is_met = hits.geoms >= 0
+        is_seen = is_met & (_along(hits.normals, ways) < 0.0)
+        distances[rays[is_seen]] = passed[is_seen]
+        geoms[rays[is_seen]] = hits.geoms[is_seen]
+        goes_on = is_met & ~is_seen
+        rays, passed = rays[goes_on], passed[goes_on] + _SKIN
+        if not len(rays):
+            break
     return Hits(distances, geoms)
+
+
+def _along(normals: Floats, directions: Floats) -> Floats:
+    """Return cosines between normals and directions: below 0 where a ray comes from outside."""
+    cosines: Floats = np.einsum('ij,ij->i', normals, directions)
+    return cosines

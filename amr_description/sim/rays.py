@@ -17,13 +17,14 @@ What is wholly transparent is not seen.
 cost is linear in rays: 360 take 0.12 ms in the world ``warehouse``, 16 × 1024 take 4.8 ms.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 import copy
 from dataclasses import dataclass
 import math
 from typing import Self
 
 import mujoco
+from mujoco.batch import Batch
 import numpy as np
 from numpy.typing import NDArray
 
@@ -118,6 +119,28 @@ class RayScene:
         twin.data = mujoco.MjData(self.model)
         mujoco.mj_kinematics(self.model, twin.data)
         return twin
+
+    def cast_each_at_start(self, mask: Mask) -> Callable[[Floats, Floats], Hits]:
+        """
+        Return what casts each ray from a point of its own, of a scene that is :meth:`at_start`.
+
+        It takes origins (n, 3) and directions (n, 3), and gives the normals, too.
+
+        Args:
+            mask: Which geoms are met.
+        """
+        self.model.geom_group[:] = mask
+        try:
+            batch = Batch(self.model, nsim=1, nthread=1)  # it copies the model
+        finally:
+            self.model.geom_group[:] = self._own_groups
+
+        def cast(origins: Floats, directions: Floats) -> Hits:
+            each = batch.ray(origins, directions, geomgroup=_GROUPS, normal=True)
+            distances, geoms, normals = (part[0] for part in each)
+            return Hits(distances, geoms, normals)
+
+        return cast
 
     def pose(self, body: int) -> tuple[Floats, Floats]:
         """Return position (3,) and rotation matrix (3, 3), from a body to the world."""
