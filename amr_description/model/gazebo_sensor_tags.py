@@ -39,6 +39,8 @@ MOST_PIXELS = 2**24
 _LONGEST_RANGE = 1e6
 """m; what is above it is meant as no limit."""
 
+_LARGEST = 1e12
+"""A number of things that is above it counts as this; there are too many of them anyhow."""
 _TURN = 2.0 * math.pi
 _ROUNDING = 0.02
 """rad; by so much a full turn may be exceeded, such as by 6.3."""
@@ -140,7 +142,7 @@ class SensorTag:
     def count(self, path: str, default: int) -> int:
         """Return a whole number from 1 on, or report it and return the default."""
         expected = 'a whole number from 1 on'
-        value = self.number(path, float(default), 1.0, expected)
+        value = min(self.number(path, float(default), 1.0, expected), _LARGEST)
         if value != int(value):
             self.warning(
                 _named(path),
@@ -301,7 +303,7 @@ class SensorTag:
         """
         element = self.element.find(path)
         count = self.count(f'{path}/samples', samples)
-        share = self.number(f'{path}/resolution', 1.0, 0.0)
+        share = min(self.number(f'{path}/resolution', 1.0, 0.0), _LARGEST)
         lower = self._angle(f'{path}/min_angle')
         upper = self._angle(f'{path}/max_angle')
         count = max(1, round(count * share))

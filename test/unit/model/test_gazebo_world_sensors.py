@@ -234,6 +234,11 @@ FAULTS = [
         '<update_rate>-5</update_rate>',
         '<update_rate>: found "-5", expected Hz: a finit',
     ),
+    (
+        'lidar',
+        scanned('<samples>1e300</samples><resolution>1e300</resolution><max_angle>1</max_angle>'),
+        'its scan has too many rays for a CPU: found 10000000000',
+    ),
     ('camera', '<pose>0 0 1</pose>', '<pose>: found "0 0 1", expected 6 numbers, finite'),
     (
         'camera',
