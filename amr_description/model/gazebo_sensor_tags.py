@@ -39,7 +39,7 @@ MOST_PIXELS = 2**24
 _LONGEST_RANGE = 1e6
 """m; what is above it is meant as no limit."""
 
-_LARGEST = 1e12
+_LARGEST = 1e9
 """A number of things that is above it counts as this; there are too many of them anyhow."""
 _TURN = 2.0 * math.pi
 _ROUNDING = 0.02
@@ -306,7 +306,7 @@ class SensorTag:
         share = min(self.number(f'{path}/resolution', 1.0, 0.0), _LARGEST)
         lower = self._angle(f'{path}/min_angle')
         upper = self._angle(f'{path}/max_angle')
-        count = max(1, round(count * share))
+        count = max(1, round(min(count * share, _LARGEST)))
         if count > 1 and lower >= upper and not self.is_faulty:
             self.error(
                 f'the angles of <{path.rpartition("/")[2]}>',
