@@ -25,6 +25,7 @@ What ``scripts/bench`` (``python -m benchmarks``) measures; not installed.
 ``real_time.py``               the real-time factor of a running simulator
 ``bare_loop.py``               that of ``mj_step`` alone, for comparison
 ``fleet.py``                   many robots in one simulator
+``sensors.py``                  what lidars and cameras take
 ``command_line.py``            the ``ros2`` command
 ``robot_state_publisher.py``   rate and load of robot_state_publisher
 ``viewer.py``                  load of the page's node, delay from a key to the command

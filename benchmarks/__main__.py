@@ -144,6 +144,12 @@ class Bench:
 
         return fleet_start_figures(self._node)
 
+    def sensors(self) -> Figures:
+        """Lidars and cameras: what they take, heard and not."""
+        from benchmarks.sensors import sensor_figures
+
+        return sensor_figures(self._node, self._seconds)
+
     def memory(self) -> Figures:
         """An hour of simulated time."""
         from benchmarks.load import memory_figures

@@ -68,11 +68,23 @@ class Simulator:
 
     def profile(self, seconds: float) -> Profile:
         """Measure a cycle. Raises BringupError: the robot does not drive."""
-        self.ask('profile', seconds=seconds)
-        profile = Profile.from_json(self.answer())
+        profile = self._profile(seconds)
         if profile.speed < 0.1:
             raise BringupError('the robot does not drive')
         return profile
+
+    def cycle(self, seconds: float) -> float:
+        """Return the processor time of a cycle, µs; of a robot at rest, too."""
+        return self._profile(seconds).cycle
+
+    def time(self) -> float:
+        """Return the simulated time, s."""
+        self.ask('time')
+        return float(self.answer())
+
+    def _profile(self, seconds: float) -> Profile:
+        self.ask('profile', seconds=seconds)
+        return Profile.from_json(self.answer())
 
     def speed(self, seconds: float, rounds: int = 3) -> Speed:
         """Measure the speed for ``seconds`` of the wall clock, in rounds."""
@@ -82,7 +94,9 @@ class Simulator:
 
 
 @contextmanager
-def controlled_robot(factor: float = 0.0, update_rate: int = 100) -> Iterator[Simulator]:
+def controlled_robot(
+    factor: float = 0.0, update_rate: int = 100, *, description: str = '', world: str = 'empty'
+) -> Iterator[Simulator]:
     """
     Run a probed simulator and a robot with active controllers, and nothing else, while inside.
 
@@ -91,13 +105,20 @@ def controlled_robot(factor: float = 0.0, update_rate: int = 100) -> Iterator[Si
     Args:
         factor: The real-time factor; 0: as fast as possible.
         update_rate: Of the controller manager, Hz.
+        description: Of the robot; '': amr.
+        world: The world.
     """
     share = package_share('amr_description')
     shipped = (share / 'config' / 'controllers.yaml').read_text(encoding='utf-8')
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / 'controllers.yaml'
         file.write_text(adapted(shipped, update_rate), encoding='utf-8')
-        parameters = ('-p', f'real_time_factor:={factor}', '-p', f'controllers:={file}')
+        urdf = share / 'urdf' / 'amr.urdf'
+        if description:
+            urdf = Path(folder) / 'robot.urdf'
+            urdf.write_text(description, encoding='utf-8')
+        given = (f'real_time_factor:={factor}', f'controllers:={file}', f'world:={world}')
+        parameters = tuple(word for each in given for word in ('-p', each))
         process = subprocess.Popen(
             [
                 *(sys.executable, '-m', 'benchmarks.probed_simulator'),
@@ -108,7 +129,7 @@ def controlled_robot(factor: float = 0.0, update_rate: int = 100) -> Iterator[Si
             text=True,
         )
         try:
-            run('create', '-file', str(share / 'urdf' / 'amr.urdf'), '-name', 'amr', '-z', '0.2')
+            run('create', '-file', str(urdf), '-name', 'amr', '-z', '0.2')
             run('spawner', *_CONTROLLERS)
             yield Simulator(process)
         finally:

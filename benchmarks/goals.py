@@ -70,6 +70,15 @@ GOALS = (
     # Of what is published: all of it, but both rates are means over some seconds, and not quite
     # the same ones. An interruption of 20 ms at either end is half a percent.
     Goal('hz', 'ros2 topic hz of 1 kHz', '%', _AT_LEAST, 99.0, 'stack'),
+    Goal('scan', '360 rays in warehouse', 'ms', _AT_MOST, 0.5, 'sensors', False),
+    Goal('scan load', '360 rays at 10 Hz, heard', '% of a core', _AT_MOST, 1.5, 'sensors', False),
+    Goal('rings', '16 × 1024 rays at 10 Hz, factor 1 held', '', _AT_LEAST, 0.99, 'sensors'),
+    Goal(
+        'picture', 'pictures 320 × 240 of rays', '/s of a core', _AT_LEAST, 20.0, 'sensors', False
+    ),
+    Goal('depth', 'depths 320 × 240 of rays', '/s of a core', _AT_LEAST, 40.0, 'sensors', False),
+    Goal('unheard', 'sensors that nobody hears, a cycle', 'µs', _AT_MOST, 3.0, 'sensors', False),
+    Goal('sensors late', 'all sensors on, lateness p99 more by', 'ms', _AT_MOST, 1.0, 'sensors'),
     Goal('memory', 'one simulated hour, memory', 'MB more', _AT_MOST, 1.0, 'memory', False),
 )
 """All figures of the table, in its order."""

@@ -14,6 +14,7 @@ PARTS = (
     'robot_state_publisher',
     'fleet',
     'fleet_start',
+    'sensors',
     'memory',
     'cold',
     'profile',

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 import os
 from pathlib import Path
 
+from amr_description.clock import NANOSECONDS
+
 _PAGE_SIZE = os.sysconf('SC_PAGE_SIZE')
 _TICK = os.sysconf('SC_CLK_TCK')
 
@@ -44,6 +46,17 @@ def processor_time(pid: int) -> float:
     with open(f'/proc/{pid}/stat', encoding='ascii', errors='replace') as file:
         fields = file.read().rpartition(')')[2].split()
     return (int(fields[11]) + int(fields[12])) / _TICK
+
+
+def thread_times(pid: int) -> float:
+    """Return the processor time of a process's threads so far, s, to the ns (schedstat)."""
+    total = 0
+    for thread in Path(f'/proc/{pid}/task').iterdir():
+        try:
+            total += int((thread / 'schedstat').read_text(encoding='ascii').split()[0])
+        except OSError:  # it has ended
+            continue
+    return total / NANOSECONDS
 
 
 def resident(pid: int) -> int:
