@@ -20,7 +20,7 @@ mm for m                                           test/unit/model/test_urdf_bro
 a robot that rears up                              test/unit/sim/test_sim_tilt.py
 ``mock`` without a clock                           test/ros/control/test_description_source.py
 two simulators in a domain                         test/ros/sim/test_other_clock.py
-lidar, camera                                      README, "What is not here"
+lidar, camera                                      test/system/sim/test_sensors.py
 =================================================  ==============================================
 """
 
