@@ -43,10 +43,15 @@ def add_instrument(builder: Builder, sensor: etree._Element, reference: str) -> 
         reference: What it is on: a link, or the joint of a force-torque sensor.
 
     Returns:
-        False if it is none of the table, or no sound one.
+        False if it is none of the table, or on nothing that can carry it.
     """
     name = sensor.get('name', '')
-    if name in builder.instruments or not name:
+    if name in builder.instruments:
+        builder.notes.append(
+            f'sensor {quote(name)} stands twice; the second one is left out, give it another name'
+        )
+        return True
+    if not name:
         return False
     match sensor.get('type'):
         case 'imu' if builder.robot.has_link(reference):
@@ -115,7 +120,7 @@ def _add_imu(builder: Builder, sensor: etree._Element, name: str, link: str) -> 
             'sensor_name': name,
             'frame_id': frame or link,
             **covariances,
-            **_rate(builder, name, _update_rate(sensor)),
+            **_rate(builder, name, _update_rate(builder, sensor, name)),
         },
         {'~/imu': topic},
         name=node,
@@ -133,7 +138,7 @@ def _add_magnetometer(builder: Builder, sensor: etree._Element, name: str, link:
             'sensor_name': name,
             'frame_id': PluginElement(sensor).text(*_FRAMES) or link,
             **({'static_covariance': covariance} if covariance else {}),
-            **_rate(builder, name, _update_rate(sensor)),
+            **_rate(builder, name, _update_rate(builder, sensor, name)),
         },
         {'~/magnetic_field': _topic(sensor, 'magnetometer')},
         name=node_name(name, 'magnetometer'),
@@ -144,7 +149,8 @@ def _add_magnetometer(builder: Builder, sensor: etree._Element, name: str, link:
 def _add_force_torque(builder: Builder, sensor: etree._Element, name: str, reference: str) -> None:
     joint = _joint_of(builder.robot, reference)
     assert joint is not None, 'the caller has looked'
-    axes = (sensor.findtext('force_torque/frame') or '').strip()
+    axes = _one_of(builder, sensor, name, 'frame', ('child', 'parent', 'sensor'))
+    _one_of(builder, sensor, name, 'measure_direction', ('child_to_parent', 'parent_to_child'))
     frame = PluginElement(sensor).text(*_FRAMES)
     add_wrench(
         builder,
@@ -152,8 +158,22 @@ def _add_force_torque(builder: Builder, sensor: etree._Element, name: str, refer
         joint.child,
         frame or (joint.parent if axes == 'parent' else joint.child),
         _topic(sensor, f'{node_name(name, "sensor")}/force_torque'),
-        _update_rate(sensor),
+        _update_rate(builder, sensor, name),
     )
+
+
+def _one_of(
+    builder: Builder, sensor: etree._Element, name: str, tag: str, known: Sequence[str]
+) -> str:
+    """Return the text of an element of ``<force_torque>``; the first one known for another."""
+    text = (sensor.findtext(f'force_torque/{tag}') or known[0]).strip()
+    if text in known:
+        return text
+    builder.notes.append(
+        f'sensor {quote(name)}: <{tag}> is {quote(text)}, which is none of {", ".join(known)}; '
+        f'{known[0]} is taken'
+    )
+    return known[0]
 
 
 def _joint_of(robot: Robot, reference: str) -> Any:
@@ -168,8 +188,17 @@ def _topic(sensor: etree._Element, default: str) -> str:
     return default if topic == _DEFAULT_TOPIC else topic
 
 
-def _update_rate(sensor: etree._Element) -> float:
-    return parse_number((sensor.findtext('update_rate') or '').strip())
+def _update_rate(builder: Builder, sensor: etree._Element, name: str) -> float:
+    """Return the rate that a tag asks for, Hz; 0: that of the controller manager."""
+    text = (sensor.findtext('update_rate') or '0').strip()
+    rate = parse_number(text)
+    if rate >= 0.0:
+        return rate
+    builder.notes.append(
+        f'sensor {quote(name)}: <update_rate> is {quote(text)}, where Hz from 0 on are expected; '
+        'it is published at the rate of the controller manager'
+    )
+    return 0.0
 
 
 def _rate(builder: Builder, name: str, rate: float) -> Mapping[str, int]:

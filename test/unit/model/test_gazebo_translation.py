@@ -360,6 +360,47 @@ def test_a_force_torque_sensor_of_classic():
     assert lost.notes == ('plugin "ft": it is left out: there is no joint "elbow"',)
 
 
+@pytest.mark.parametrize(
+    ('kind', 'inside', 'note'),
+    [
+        (
+            'magnetometer',
+            '<update_rate>fast</update_rate>',
+            '<update_rate> is "fast", where Hz from 0 on are expected; it is published at the '
+            'rate of the controller manager',
+        ),
+        (
+            'force_torque',
+            '<force_torque><frame>moon</frame></force_torque>',
+            '<frame> is "moon", which is none of child, parent, sensor; child is taken',
+        ),
+        (
+            'force_torque',
+            '<force_torque><measure_direction>up</measure_direction></force_torque>',
+            '<measure_direction> is "up", which is none of child_to_parent, parent_to_child; '
+            'child_to_parent is taken',
+        ),
+    ],
+)
+def test_what_a_sensor_says_and_cannot_be_is_told(kind, inside, note):
+    urdf = f"""<robot name="r"><link name="base"/><link name="tip"/>
+        <joint name="j" type="fixed"><parent link="base"/><child link="tip"/></joint>
+        <gazebo reference="tip"><sensor name="s" type="{kind}">{inside}</sensor></gazebo>
+        </robot>"""
+    found = translate(parse(urdf, 'r.urdf'))
+    assert len(found.controllers) == 1
+    assert found.notes == (f'sensor "s": {note}',)
+
+
+def test_of_two_sensors_of_one_name_the_first_counts():
+    sensor = '<sensor name="s" type="magnetometer"/>'
+    found = translated(reference=sensor + sensor)
+    assert len(found.controllers) == 1 and not found.not_simulated
+    assert found.notes == (
+        'sensor "s" stands twice; the second one is left out, give it another name',
+    )
+
+
 def test_a_rate_above_the_highest_is_told():
     found = translated(
         reference='<sensor name="unit" type="imu"><update_rate>1000</update_rate></sensor>'
