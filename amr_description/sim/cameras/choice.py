@@ -9,8 +9,9 @@ picture of 320 x 240 in the world ``warehouse``, ms:
 =====================  ======  =====
 ..                     OpenGL  rays
 =====================  ======  =====
-colours and depth      6       22
-depth                  4       8
+colours and depth      6       21
+… with shadows         23      41
+depth                  4       7
 =====================  ======  =====
 
 and meshes cost rays far more. What rays have instead is said there

@@ -9,6 +9,7 @@ that sees all that the lens shows. As in Gazebo, what is nearer than the near pl
 
 import copy
 from dataclasses import dataclass
+import re
 
 import mujoco
 import numpy as np
@@ -26,6 +27,9 @@ _SKYBOX = int(mujoco.mjtTexture.mjTEXTURE_SKYBOX)
 _SPARE_GEOMS = 100
 _LARGEST = 4096
 """Pixels, of a side of the pinhole's picture for a lens; beyond that it is coarser."""
+_BY_PROCESSOR = re.compile('llvmpipe|softpipe|swrast')
+_SHADOWS_BY_PROCESSOR = 1024
+"""Pixels of a side of its map of shadows: MuJoCo's 4096 take 60 ms of the processor, this 17."""
 _SEEN, _UNSEEN = 0, 5
 """Geom groups."""
 _FLAGS = mujoco.mjtRndFlag
@@ -132,6 +136,9 @@ class GlRenderer(Renderer):
         model.vis.global_.offwidth, model.vis.global_.offheight = size
         # Edges between two depths have neither of them if they are smoothed.
         model.vis.quality.offsamples = 0
+        if _BY_PROCESSOR.search(self.description):
+            quality = model.vis.quality
+            quality.shadowsize = min(quality.shadowsize, _SHADOWS_BY_PROCESSOR)
         if self._mjr is not None:
             self._mjr.free()
         self._mjr = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_50)

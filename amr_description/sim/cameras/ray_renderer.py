@@ -4,7 +4,7 @@
 Pictures by a ray for each pixel, on the processor.
 
 It needs nothing of the machine, depth is exact, and two runs give the same bits. Light is that of
-:mod:`amr_description.sim.cameras.shading`.
+:mod:`amr_description.sim.cameras.shading`, with the shadows of one light.
 
 Surfaces are seen from outside only, as those of OpenGL: a camera inside a shape, such as its
 housing, sees through it. Nor does the link that carries a camera hide its view nearer than its
@@ -20,6 +20,7 @@ from amr_description.sim.cameras.ray_caster import Ends, Eye, RayCaster
 from amr_description.sim.cameras.renderer import BACKGROUND, Picture, Renderer, Shot
 from amr_description.sim.cameras.screen import Screen
 from amr_description.sim.cameras.shading import Shading, Surface
+from amr_description.sim.cameras.shadows import in_shadow, shadow_light
 from amr_description.sim.state_copy import CopiedScenes
 
 
@@ -41,9 +42,10 @@ class RayRenderer(Renderer):
         if self._bound is not state.model:
             self._bound, self._shading = state.model, Shading(state.model)
             self._caster = RayCaster(self._scene)
+            self._shadow_light = shadow_light(state.model)
         screen = self._screens.get(camera)
         if screen is None:
-            screen = self._screens[camera] = Screen(camera)
+            screen = self._screens[camera] = Screen.of(camera)
         near, far = _range_of(shot)
         eye = Eye(
             np.array(shot.pose.translation),
@@ -77,7 +79,9 @@ class RayRenderer(Renderer):
             depth.astype(np.float32) * np.float32(screen.spread),
         )
         pixels = np.empty((is_hit.size, 3), np.uint8)
-        pixels[which] = _as_bytes(self._shading.colors(self._scene.data, surface, eye.turn[:, 0]))
+        shadows = self._shadows(surface) if len(which) else None
+        colors = self._shading.colors(self._scene.data, surface, eye.turn[:, 0], shadows)
+        pixels[which] = _as_bytes(colors)
         nothing = np.flatnonzero(~is_hit)
         if len(nothing):
             seen = np.stack([each.ravel()[nothing] for each in directions], axis=-1)
@@ -86,6 +90,17 @@ class RayRenderer(Renderer):
         if screen.is_blind is not None:
             pixels[screen.is_blind.ravel()] = 0
         return pixels.reshape(*screen.shape, 3)
+
+    def _shadows(self, surface: Surface) -> tuple[int, np.ndarray] | None:
+        """Return a light, and the indices of surfaces that it does not reach."""
+        light = self._shadow_light
+        if light < 0:
+            return None
+        scene = self._scene
+        unlit = in_shadow(
+            self._caster, scene.model, scene.data, light, surface.geom, surface.point
+        )
+        return light, np.flatnonzero(unlit)
 
 
 def _range_of(shot: Shot) -> tuple[float, float]:

@@ -9,7 +9,7 @@ distortion x depends on the column alone and y on the row alone, so that what is
 direction is a sum of a row and a column: one operation for each pixel.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -28,25 +28,40 @@ class Area(NamedTuple):
 
 
 class Screen:
-    """The rays of one camera."""
+    """Rays from one point; those of a camera: :meth:`of`."""
 
-    def __init__(self, camera: Camera) -> None:
-        """Undistort once."""
-        seen = pixel_directions(camera)
-        self.shape = seen.shape[:2]
+    def __init__(self, x: np.ndarray, y: np.ndarray, spread: float) -> None:
+        """
+        Make a grid.
+
+        Args:
+            x: Normalized coordinates of the columns (1, width), or of all rays (height, width).
+            y: Likewise of the rows, (height, 1), or of all rays. NaN: nothing is seen there.
+            spread: How wide a pixel is at a depth of 1.
+        """
+        self.shape = np.broadcast_shapes(x.shape, y.shape)
         self.everywhere = Area(slice(0, self.shape[0]), slice(0, self.shape[1]))
-        is_blind = np.isnan(seen[..., 0])
+        is_blind = np.isnan(x + y)
         self.is_blind = is_blind if is_blind.any() else None
         """(height, width): the lens shows nothing there; None: it does everywhere."""
-        self.spread = 1.0 / intrinsics_of(camera).fx
+        self.spread = spread
         """How wide a pixel is at a depth of 1."""
-        x, y = seen[..., 0], seen[..., 1]
-        self._is_separable = camera.distortion.is_none
-        self._x, self._y = (x[:1], y[:, :1]) if self._is_separable else (x, y)
+        self._is_separable = x.shape != self.shape
+        self._x, self._y = x, y
         self._left, self._right = np.nanmin(x, axis=0), np.nanmax(x, axis=0)
         self._top, self._bottom = np.nanmin(y, axis=1), np.nanmax(y, axis=1)
         self.longest = float(np.sqrt(1.0 + np.nanmax(x * x + y * y)))
         """The length of the longest ray."""
+
+    @classmethod
+    def of(cls, camera: Camera) -> Self:
+        """Return the rays of a camera."""
+        seen = pixel_directions(camera)
+        x, y = seen[..., 0], seen[..., 1]
+        spread = 1.0 / intrinsics_of(camera).fx
+        if camera.distortion.is_none:
+            return cls(x[:1], y[:, :1], spread)
+        return cls(x, y, spread)
 
     def linear(self, factors: np.ndarray, area: Area) -> np.ndarray:
         """Return the product of each ray (1, -x, -y) and (3,) factors: (rows, columns)."""

@@ -19,6 +19,7 @@ from amr_description.sim.cameras.textures import Textures
 
 _DIRECTIONAL = int(mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
 _SPOT = int(mujoco.mjtLightType.mjLIGHT_SPOT)
+_NOWHERE = np.zeros(0, np.intp)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +57,13 @@ class Shading:
         self._glows = bool(emission.any())
         self._textures = Textures(model)
 
-    def colors(self, data: mujoco.MjData, surface: Surface, forward: np.ndarray) -> np.ndarray:
+    def colors(
+        self,
+        data: mujoco.MjData,
+        surface: Surface,
+        forward: np.ndarray,
+        shadows: tuple[int, np.ndarray] | None = None,
+    ) -> np.ndarray:
         """
         Return the colours of surfaces: (n, 3), float32, 0 to 1.
 
@@ -64,8 +71,9 @@ class Shading:
             data: Has the poses of geoms and lights.
             surface: What is seen.
             forward: Where the camera looks, in the world.
+            shadows: A light, and which of the surfaces it does not reach, (n,).
         """
-        light = self._light(data, surface, forward)
+        light = self._light(data, surface, forward, shadows or (-1, _NOWHERE))
         if self._glows:
             light += self._emission[surface.geom, np.newaxis]
         light *= self._rgba[surface.geom]
@@ -78,7 +86,13 @@ class Shading:
         """Return the colours of the sky, (n, 3), 0 to 1, by directions; None: it has none."""
         return self._textures.sky(directions)
 
-    def _light(self, data: mujoco.MjData, surface: Surface, forward: np.ndarray) -> np.ndarray:
+    def _light(
+        self,
+        data: mujoco.MjData,
+        surface: Surface,
+        forward: np.ndarray,
+        shadows: tuple[int, np.ndarray],
+    ) -> np.ndarray:
         """Return what falls on each hit, (n, 3)."""
         model = self._model
         headlight = model.vis.headlight
@@ -89,8 +103,10 @@ class Shading:
             towards.append(-forward)
             diffuse.append(headlight.diffuse)
         others = []
+        column = -1  # of the light that casts shadows
         for light in np.flatnonzero(model.light_active).tolist():
             if model.light_type[light] == _DIRECTIONAL:
+                column = len(towards) if light == shadows[0] else column
                 ambient += model.light_ambient[light]
                 towards.append(-data.light_xdir[light])
                 diffuse.append(model.light_diffuse[light])
@@ -102,12 +118,17 @@ class Shading:
             # One product for all that come from afar.
             facing = surface.normal @ np.array(towards, np.float32).T
             np.maximum(facing, 0.0, out=facing)
+            if column >= 0:
+                facing[shadows[1], column] = 0.0
             total += facing @ np.array(diffuse, np.float32)
         for light in others:
-            total += self._from_a_place(data, surface, light)
+            unlit = shadows[1] if light == shadows[0] else _NOWHERE
+            total += self._from_a_place(data, surface, light, unlit)
         return total
 
-    def _from_a_place(self, data: mujoco.MjData, surface: Surface, light: int) -> np.ndarray:
+    def _from_a_place(
+        self, data: mujoco.MjData, surface: Surface, light: int, unlit: np.ndarray
+    ) -> np.ndarray:
         """Return what a light at a place gives, (n, 3)."""
         model = self._model
         towards = data.light_xpos[light].astype(np.float32) - surface.point
@@ -121,6 +142,7 @@ class Shading:
             exponent = float(model.light_exponent[light])
             strength *= is_lit * np.maximum(along, 0.0) ** exponent
         facing = np.maximum(np.einsum('ij,ij->i', surface.normal, towards), 0.0)
+        facing[unlit] = 0.0
         lit = facing[:, np.newaxis] * model.light_diffuse[light].astype(np.float32)
         lit += model.light_ambient[light].astype(np.float32)
         lit *= strength[:, np.newaxis]

@@ -47,7 +47,7 @@ def test_rays_end_where_those_of_mujoco_end(geoms, rpy):
     turn = np.array(matrix_from_quaternion(quaternion_from_rpy(*rpy)))
     eye = Eye(np.zeros(3), turn, 100.0, -1, 0.0)
     for camera in CAMERAS:
-        screen = Screen(camera)
+        screen = Screen.of(camera)
         rays = screen.rays(screen.everywhere).reshape(-1, 3) @ turn.T
         expected = scene.cast(np.zeros(3), rays, normals=True)
         with np.errstate(all='ignore'):
@@ -73,7 +73,9 @@ def test_what_is_in_no_view_of_the_camera_costs_nothing():
         '<geom type="box" size=".1 .1 .1" pos="300 0 0"/>'
     )
     scene = CopiedScenes().scene(state)
-    ends = RayCaster(scene).cast(Screen(CAMERAS[0]), Eye(np.zeros(3), np.eye(3), 100.0, -1, 0.0))
+    ends = RayCaster(scene).cast(
+        Screen.of(CAMERAS[0]), Eye(np.zeros(3), np.eye(3), 100.0, -1, 0.0)
+    )
     assert ends.seen == []
     assert np.isinf(ends.depth).all()
     assert (ends.geoms() == -1).all()
@@ -81,7 +83,7 @@ def test_what_is_in_no_view_of_the_camera_costs_nothing():
 
 @pytest.mark.parametrize('camera', CAMERAS, ids=['pinhole', 'lens'])
 def test_an_area_has_all_that_a_box_shows(camera):
-    screen = Screen(camera)
+    screen = Screen.of(camera)
     rays = screen.rays(screen.everywhere)
     generator = np.random.default_rng(3)
     for _ in range(50):

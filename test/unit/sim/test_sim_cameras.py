@@ -170,6 +170,29 @@ def test_what_faces_the_light_is_brighter(rays):
     assert values == {(13, 13, 13), (102, 102, 102)}
 
 
+@pytest.mark.parametrize('kind', ['directional', 'spot'])
+def test_a_shadow_lies_where_the_light_does_not_reach(rays, kind):
+    state = state_of(
+        f'<light type="{kind}" dir="1 0 -1" pos="-20 0 21" diffuse=".5 .5 .5" cutoff="60"/>'
+        '<geom type="plane" size="0 0 1" rgba="1 1 1 1"/>'
+        '<geom type="box" size=".5 .5 .1" pos="0 0 1"/>',
+        options='<visual><headlight ambient=".2 .2 .2" diffuse="0 0 0"/></visual>',
+    )
+    # From above, with x of the world down in the picture.
+    pose = Transform((1.0, 0.0, 8.0), quaternion_from_rpy(0.0, math.pi / 2, math.pi))
+    camera = camera_of(160, 160, fov=math.radians(60.0))
+    picture = take(rays, camera, state, pose)
+    is_floor = picture.depth > 7.99
+    dark = is_floor & (picture.color[..., 0] < 80)
+    seen = pixel_directions(camera)[dark] * 8.0
+    x = 1.0 + seen[:, 1]
+    # A top at 1.1 m and a bottom at 0.9 m, along a slope of 45 degrees; the top hides nothing.
+    assert x.min() == pytest.approx(0.5, abs=0.15)
+    assert x.max() == pytest.approx(0.5 + 1.1, abs=0.15)
+    assert np.abs(seen[:, 0]).max() == pytest.approx(0.5, abs=0.15)
+    assert (picture.color[is_floor & ~dark][:, 0] > 100).mean() > 0.99
+
+
 def test_a_checkered_floor_has_its_squares_where_they_are(rays):
     state = state_of(
         '<geom type="plane" size="0 0 1" material="checker"/>',

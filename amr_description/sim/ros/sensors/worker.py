@@ -168,11 +168,11 @@ class SensorTask:
         self._duration = wall.monotonic() - begin
 
     def _leave_out(self) -> None:
-        self._left_out += 1
         now = wall.monotonic()
-        if now < self._next_line:
-            return
         if not self._duration and now < self._asked + _PATIENCE:  # the first loads the scene
+            return
+        self._left_out += 1
+        if now < self._next_line:
             return
         self._next_line = now + _LOG_PERIOD
         total = self._made + self._left_out
