@@ -3,6 +3,7 @@
 """The interface of tf2_ros: a buffer for many threads, a listener, broadcasters; over real DDS."""
 
 import asyncio
+from contextlib import ExitStack
 import threading
 from types import SimpleNamespace
 
@@ -42,6 +43,18 @@ def context():
     rclpy.init(args=[])
     yield
     rclpy.try_shutdown()
+
+
+@pytest.fixture
+def own(context):
+    """Has a node destroyed after the test: the next one would find it in the graph."""
+    with ExitStack() as stack:
+
+        def owned(node):
+            stack.callback(node.destroy_node)
+            return node
+
+        yield owned
 
 
 @pytest.fixture
@@ -205,8 +218,8 @@ def test_what_was_on_its_way_when_time_went_back_keeps_nothing_out(context):
     assert buffer._logger.said == ['Detected jump back in time. Clearing tf buffer.']
 
 
-def test_a_listener_receives_moving_and_earlier_static_transforms(context):
-    talker, hearer = Node('talker'), Node('hearer')
+def test_a_listener_receives_moving_and_earlier_static_transforms(own):
+    talker, hearer = own(Node('talker')), own(Node('hearer'))
     static, moving = StaticTransformBroadcaster(talker), TransformBroadcaster(talker)
     static.sendTransform(message('base', 'laser', 0.5))
     static.sendTransform([message('base', 'camera', 0.7), message('base', 'lidar', 0.8)])
@@ -252,9 +265,9 @@ def test_a_publisher_whose_node_is_not_known_yet_has_no_name():
     assert publishers_of(hearer, '/tf') == ['/a/b']
 
 
-def test_a_listener_can_serve_itself(context):
+def test_a_listener_can_serve_itself(own):
     """A callback, or a main program, may wait: a thread hears."""
-    talker = Node('talker')
+    talker = own(Node('talker'))
     StaticTransformBroadcaster(talker).sendTransform(message('base', 'laser'))
     buffer = Buffer()
     listener = TransformListener(buffer, None, spin_thread=True)
@@ -265,7 +278,7 @@ def test_a_listener_can_serve_itself(context):
     assert not any(thread.name == 'transforms' for thread in threading.enumerate())
 
 
-def test_a_node_written_for_tf2_ros_changes_its_import_only(context):
+def test_a_node_written_for_tf2_ros_changes_its_import_only(own):
     """The node of tf2's tutorial, as it is written there."""
 
     class FrameListener(Node):
@@ -282,7 +295,7 @@ def test_a_node_written_for_tf2_ros_changes_its_import_only(context):
                     error
                 )
 
-    node = FrameListener()
+    node = own(FrameListener())
     broadcaster = tf2_ros.StaticTransformBroadcaster(node)
     assert node.look() is None
     broadcaster.sendTransform(message('turtle1', 'carrot1', 2.0))

@@ -276,12 +276,13 @@ def test_ten_resets_while_driving_silence_nothing_and_odometry_begins_at_zero(
 
 def reset_and_drive_on(sim, driver):
     """One reset of the ten."""
-    sim.wait(lambda: driver.travelled > 0.05)
-    before = driver.heard['odom'][-1]
+    sim.wait(lambda: driver.travelled > 0.05 and all(driver.heard[name] for name in HEARD))
+    before = {name: driver.heard[name][-1] for name in HEARD}
     driver.forget()
     sim.do(ResetSimulation, scope=KEEPING)
     # What was on its way at the reset still bears a time of before.
-    sim.wait(lambda: any(stamp < before for stamp in driver.heard['odom']))
+    for name in HEARD:
+        sim.wait(lambda: any(stamp < before[name] for stamp in driver.heard[name]))  # noqa: B023
     sim.wait(lambda: driver.travelled > 0.05)
     sim.wait(lambda: all(len(since_reset(driver.heard[name])) > 5 for name in HEARD))
     # How much simulated time passes until another process gets a processor, who knows: what the
