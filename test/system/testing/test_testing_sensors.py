@@ -10,11 +10,20 @@ from sensor_msgs.msg import LaserScan
 from support.paths import ROOT
 
 from amr_description.errors import SimulationError
+from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 
 URDF = ROOT / 'urdf' / 'amr_sensors.urdf.xacro'
 SPREAD = 0.03
 """m: six times the deviation of the lidar's noise."""
+BUMPER = """
+  <gazebo reference="base_link">
+    <sensor name="bumper" type="contact">
+      <topic>bumper</topic><contact><collision>base_link_collision</collision></contact>
+    </sensor>
+  </gazebo>
+</robot>
+"""
 
 pytest_plugins = ['amr_description.testing.fixtures']
 
@@ -26,8 +35,10 @@ def sim(simulation):
 
 @pytest.fixture
 def fleet(simulation):
+    """Two robots with bumpers."""
+    text = description_at(str(URDF), warn=pytest.fail)
     poses = {'robot1': Transform(), 'robot2': Transform((1.0, 0.0, 0.0))}
-    return simulation(URDF, world='walls', robots=poses)
+    return simulation(text.replace('</robot>', BUMPER), world='walls', robots=poses)
 
 
 def test_a_wall_is_where_it_is_at_every_instant(sim):
@@ -109,3 +120,12 @@ def test_robots_see_each_other_in_frames_of_their_own(fleet):
     assert one.scan.ranges[180] == pytest.approx(0.96, abs=SPREAD)
     assert two.scan_of('scan').ranges[0] == pytest.approx(0.96, abs=SPREAD)
     assert math.isclose(one.scan.ranges[90], two.scan.ranges[90], abs_tol=2 * SPREAD)
+
+
+def test_a_bumper_says_what_it_touches_and_that_it_touches_nothing(fleet):
+    one, two = fleet.robots.values()
+    assert one.contacts() == two.contacts() == []
+    fleet.drive_all({'robot1': (0.4, 0.0)}, seconds=1.5, stop=False)
+    contacts = one.contacts()
+    assert {each.first for each in contacts} == {'robot1::base_link::base_link_collision'}
+    assert all(each.second.startswith('robot2::wheel_back_') for each in contacts)
