@@ -92,8 +92,10 @@ class SensorTag:
         """Report a fault with which the sensor cannot be simulated."""
         self.is_faulty = True
         line = self.line if element is None else line_of(element)
+        fix = details.get('fix', '')
+        taken = f'{LEFT_OUT}; {fix}' if fix else LEFT_OUT  # the simulator says what would do, too
         self.findings.append(
-            Finding.error(self.robot.source, line, self._says(what), taken=LEFT_OUT, **details)
+            Finding.error(self.robot.source, line, self._says(what), taken=taken, **details)
         )
 
     def leave_out(self, what: str, element: etree._Element | None = None, **details: str) -> None:

@@ -294,7 +294,8 @@ def test_a_sensor_that_cannot_work_is_left_out_and_told_with_its_line(kind, insi
     found = robot_sensors_of(robot)
     assert [each.mount.name for each in found.sensors] == ['good']
     assert found.findings[0].text.startswith(f'r.urdf:5: gazebo sensor "s": {message}')
-    assert found.findings[0].as_taken().text.endswith('; the sensor is left out')
+    told, fix = found.findings[0].as_taken().text, found.findings[0].fix
+    assert told.endswith(f'; the sensor is left out; {fix}' if fix else '; the sensor is left out')
     told = [each.text for each in checks.check(robot.text, 'r.urdf')]
     assert all(each.text in told for each in found.findings)
 
