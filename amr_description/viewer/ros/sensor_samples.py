@@ -84,9 +84,12 @@ def sample_of(message_type: str, data: bytes, topic: str, rate: float | None) ->
     """
     origin = Origin(topic, '', 0.0, rate)
     try:
-        return encode_sample(*CONVERTERS[message_type](data, origin))
+        with np.errstate(all='ignore'):  # what is published may be any number
+            return encode_sample(*CONVERTERS[message_type](data, origin))
     except (ValueError, ViewerError) as error:
         return unreadable(topic, str(error), rate)
+    except Exception as error:  # a bug of ours, which must not end what else the page shows
+        return unreadable(topic, f'the viewer failed: {type(error).__name__}: {error}', rate)
 
 
 def unreadable(topic: str, text: str, rate: float | None = None) -> bytes:
@@ -174,11 +177,8 @@ def _contacts(found: ContactsData, origin: Origin) -> tuple[Head, Parts]:
         for each in found.contacts[:_SHOWN_CONTACTS]
     )
     places = [np.hstack([each.points, each.normals]) for each in found.contacts]
-    with np.errstate(over='ignore', invalid='ignore'):
-        joined = np.concatenate([np.empty((0, PLACE_FLOATS)), *places])[:_MOST_PLACES].astype(
-            '<f4'
-        )
-    return Contacts(_origin(origin, found.header), named), (joined,)
+    joined = np.concatenate([np.empty((0, PLACE_FLOATS)), *places])
+    return Contacts(_origin(origin, found.header), named), (joined[:_MOST_PLACES].astype('<f4'),)
 
 
 def _origin(origin: Origin, header: Header) -> Origin:
