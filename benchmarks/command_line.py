@@ -65,10 +65,11 @@ def _median_time(command: Sequence[str], runs: int = _RUNS) -> float:
 def _hz_share(node: Node, rate: float, seconds: float) -> float:
     """Return the last rate that ``ros2 topic hz`` shows, of that which was published."""
     topic = '/benchmark/hz'
-    begin = time.monotonic()
     with stream(node, topic, rate) as published:
         text = _output_of(['ros2', 'topic', 'hz', topic], seconds)
-        true_rate = published() / (time.monotonic() - begin)
+        times = published()
+    # Of either rate: the intervals between messages. What was before the first one is in neither.
+    true_rate = (len(times) - 1) / (times[-1] - times[0])
     shown = _RATE_LINE.findall(text)
     return float(shown[-1]) / true_rate if shown else 0.0
 
@@ -99,18 +100,17 @@ def _output_of(command: Sequence[str], seconds: float) -> str:
 
 
 @contextmanager
-def stream(node: Node, topic: str, rate: float) -> Iterator[Callable[[], int]]:
+def stream(node: Node, topic: str, rate: float) -> Iterator[Callable[[], Sequence[float]]]:
     """
     Publish joint states of four joints at ``rate`` Hz, stamped with the wall clock.
 
-    Yields what tells how many have been published.
+    Yields what tells when each one was published, s.
     """
-    count = 0
+    times: list[float] = []
     publisher = node.create_publisher(JointState, topic, 10)
     done = threading.Event()
 
     def publish() -> None:
-        nonlocal count
         zeros = array('d', [0.0] * len(_JOINTS))
         message = JointState(name=_JOINTS, position=zeros, velocity=zeros, effort=zeros)
         due = time.monotonic()
@@ -118,12 +118,12 @@ def stream(node: Node, topic: str, rate: float) -> Iterator[Callable[[], int]]:
             due += 1.0 / rate
             fill_stamp(time.time_ns(), message.header.stamp)
             publisher.publish(message)
-            count += 1
+            times.append(time.monotonic())
 
     thread = threading.Thread(target=publish, name='stream')
     thread.start()
     try:
-        yield lambda: count
+        yield lambda: tuple(times)
     finally:
         done.set()
         thread.join()
