@@ -19,3 +19,6 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 ``lens.py``                 where a point is in the picture, and where a pixel looks: K, distortion
 =========================== =======================================================================
 """
+
+CHOICES = ('auto', 'gl', 'rays')
+"""Which renderer may be asked for; the first one: whichever works."""

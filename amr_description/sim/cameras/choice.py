@@ -26,8 +26,6 @@ from amr_description.sim.cameras.gl_renderer import GlRenderer
 from amr_description.sim.cameras.ray_renderer import RayRenderer
 from amr_description.sim.cameras.renderer import Picture, Renderer, Shot
 
-CHOICES = ('auto', 'gl', 'rays')
-
 
 class ChosenRenderer(Renderer):
     """
@@ -43,7 +41,7 @@ class ChosenRenderer(Renderer):
         Choose later.
 
         Args:
-            choice: One of :data:`CHOICES`.
+            choice: One of :data:`~amr_description.sim.cameras.CHOICES`.
             log: Gets a line when it is made, and one when OpenGL fails.
             make_gl: Raises RenderingError where there is no OpenGL.
         """

@@ -35,7 +35,7 @@ from amr_description.parameters import group, parameter
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
-from amr_description.sim.cameras.choice import CHOICES
+from amr_description.sim.cameras import CHOICES
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler

@@ -139,7 +139,7 @@ def test_pictures_depth_and_points_of_one_instant_fit_together(host):
 def test_what_nobody_hears_is_not_rendered(host):
     host.spawn(CAMERA)
     shots = []
-    renderer = host.sensors._renderer  # noqa: SLF001
+    renderer = host.sensors._equipment.renderer  # noqa: SLF001
     render = renderer.render
     renderer.render = lambda shot: (shots.append(shot), render(shot))[1]
     host.turn(11)
@@ -172,7 +172,7 @@ def test_while_cycles_are_paced_none_waits_for_a_picture(host):
     host.spawn(CAMERA)
     host.is_paced = True
     begun, go_on = threading.Event(), threading.Event()
-    renderer = host.sensors._renderer  # noqa: SLF001
+    renderer = host.sensors._equipment.renderer  # noqa: SLF001
     render = renderer.render
 
     def slow(shot):

@@ -5,6 +5,7 @@ The sensors of simulated robots that look at the world, as topics: lidars, camer
 
 =========================== =======================================================================
 ``manager.py``              all sensors of all robots: which one measures, and when
+``equipment.py``            what they measure with; loaded with the first sensor
 ``measure_service.py``     ``~/measure``: the present instant, while time stands still
 ``topics.py``               what the topics of one sensor are: the contract of the modules below
 ``contact.py``              contact sensors and bumpers

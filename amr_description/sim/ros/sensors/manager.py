@@ -2,31 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """All sensors of all robots of a world: which one measures, and when."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.errors import AmrError
-from amr_description.model.sensors import Camera, ContactSensor, Lidar, WorldSensor
-from amr_description.sim.cameras.choice import ChosenRenderer
-from amr_description.sim.ros.sensors.camera import CameraTopics
-from amr_description.sim.ros.sensors.contact import ContactTopics
-from amr_description.sim.ros.sensors.lidar import LidarTopics
-from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-from amr_description.sim.ros.sensors.worker import SensorWorker
-from amr_description.sim.sensor_schedule import SensorSchedule
-from amr_description.sim.state_copy import CopiedScenes, StateCopier
+from amr_description.model.sensors import WorldSensor
 from amr_description.sim.world import MujocoWorld
 
-TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
-    Lidar: LidarTopics,
-    ContactSensor: ContactTopics,
-    Camera: CameraTopics,
-}
-"""Type of a sensor's description → what makes its topics."""
+if TYPE_CHECKING:  # a tenth of the simulator's start; most robots have no such sensors
+    from amr_description.sim.ros.sensors.equipment import Equipment
+    from amr_description.sim.ros.sensors.topics import SensorTopics
+    from amr_description.sim.sensor_schedule import SensorSchedule
 
 
 class SensorManager:
@@ -58,7 +48,7 @@ class SensorManager:
             is_paced: See :attr:`SensorContext.is_paced`.
             has_ticked: Whether the controllers have ticked at a time, ns. Sensors measure at
                 ticks, so that the odometry of their instant goes out before.
-            camera_renderer: One of :data:`~amr_description.sim.cameras.choice.CHOICES`.
+            camera_renderer: One of :data:`~amr_description.sim.cameras.CHOICES`.
         """
         self._node = node
         self._loop_publisher = loop_publisher
@@ -66,10 +56,8 @@ class SensorManager:
         self._log = log
         self._is_paced = is_paced
         self._has_ticked = has_ticked
-        self._worker = SensorWorker(loop_publisher, log, is_paced)
-        self._states = StateCopier(world)
-        self._scenes = CopiedScenes()
-        self._renderer = ChosenRenderer(camera_renderer, log)
+        self._camera_renderer = camera_renderer
+        self._equipment: Equipment | None = None
         self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
         self._is_requested = False
         self.on_first: Callable[[], None] | None = None
@@ -87,19 +75,19 @@ class SensorManager:
         """
         if not sensors:
             return
-        context = SensorContext(
-            self._node,
-            self._loop_publisher,
-            self._world,
-            self._world.robot(name),
-            namespace,
-            self._log,
-            self._is_paced,
-            self._worker,
-            self._states,
-            self._scenes,
-            self._renderer,
-        )
+        from amr_description.sim.ros.sensors.equipment import Equipment, TOPICS
+        from amr_description.sim.sensor_schedule import SensorSchedule
+
+        if self._equipment is None:
+            self._equipment = Equipment(
+                self._node,
+                self._loop_publisher,
+                self._world,
+                self._log,
+                self._is_paced,
+                self._camera_renderer,
+            )
+        context = self._equipment.context(name, namespace)
         if self.on_first is not None:
             self.on_first()
             self.on_first = None
@@ -127,7 +115,8 @@ class SensorManager:
 
     def close(self) -> None:
         """End the thread that measures; the control thread has ended."""
-        self._worker.close(self._renderer.close)
+        if self._equipment is not None:
+            self._equipment.close()
 
     def request(self) -> None:
         """Have the sensors that are heard measure in the next cycle; on the control thread."""

@@ -1,0 +1,76 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What the sensors of a world measure with, and what makes their topics.
+
+It is loaded with the first sensor: this is a tenth of the simulator's imports.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from rclpy.node import Node
+
+from amr_description.control.contracts import Log
+from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.model.sensors import Camera, ContactSensor, Lidar
+from amr_description.sim.cameras.choice import ChosenRenderer
+from amr_description.sim.ros.sensors.camera import CameraTopics
+from amr_description.sim.ros.sensors.contact import ContactTopics
+from amr_description.sim.ros.sensors.lidar import LidarTopics
+from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
+from amr_description.sim.ros.sensors.worker import SensorWorker
+from amr_description.sim.state_copy import CopiedScenes, StateCopier
+from amr_description.sim.world import MujocoWorld
+
+TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
+    Lidar: LidarTopics,
+    ContactSensor: ContactTopics,
+    Camera: CameraTopics,
+}
+"""Type of a sensor's description → what makes its topics."""
+
+
+class Equipment:
+    """What all sensors of a world share."""
+
+    def __init__(
+        self,
+        node: Node,
+        loop_publisher: LoopPublisher,
+        world: MujocoWorld,
+        log: Log,
+        is_paced: Callable[[], bool],
+        camera_renderer: str,
+    ) -> None:
+        """Take what :class:`~amr_description.sim.ros.sensors.manager.SensorManager` was given."""
+        self._node = node
+        self._loop_publisher = loop_publisher
+        self._world = world
+        self._log = log
+        self._is_paced = is_paced
+        self._worker = SensorWorker(loop_publisher, log, is_paced)
+        self._states = StateCopier(world)
+        self._scenes = CopiedScenes()
+        self.renderer = ChosenRenderer(camera_renderer, log)
+        """Of the pictures of cameras."""
+
+    def context(self, name: str, namespace: str) -> SensorContext:
+        """Return what the sensors of a robot are given, by its name in the world."""
+        return SensorContext(
+            self._node,
+            self._loop_publisher,
+            self._world,
+            self._world.robot(name),
+            namespace,
+            self._log,
+            self._is_paced,
+            self._worker,
+            self._states,
+            self._scenes,
+            self.renderer,
+        )
+
+    def close(self) -> None:
+        """End the thread that measures; the control thread has ended."""
+        self._worker.close(self.renderer.close)
