@@ -45,6 +45,24 @@ class SensorSchedule:
         return math.floor(time / NANOSECONDS * self._rate + 1e-6)
 
 
+class CycleBudget:
+    """How much sensors may measure on the control thread in one cycle, in any unit."""
+
+    def __init__(self, most: int) -> None:
+        """``most``: in a cycle, of all sensors together."""
+        self._most = self._left = most
+        self._time: int | None = None
+
+    def take(self, time: int, amount: int) -> bool:
+        """Whether ``amount`` is left in the cycle at ``time``, ns; it is taken then."""
+        if time != self._time:
+            self._time, self._left = time, self._most
+        if amount > self._left:
+            return False
+        self._left -= amount
+        return True
+
+
 def noise_generator(seed: Sequence[int], sensor: str, time: int) -> np.random.Generator:
     """
     Return the random numbers of one measurement.

@@ -196,6 +196,23 @@ def test_a_lidar_whose_rays_take_long_leaves_the_control_thread(host, monkeypatc
     assert threads == [here, here, 'sensors', 'sensors']
 
 
+def test_lidars_of_many_robots_share_both_threads(host, monkeypatch):
+    threads, measure = [], SimulatedLidar.measure
+
+    def noted(*arguments):
+        threads.append(threading.current_thread().name)
+        return measure(*arguments)
+
+    monkeypatch.setattr(SimulatedLidar, 'measure', noted)
+    wide = replace(LIDAR, horizontal=ScanAxis(lidar.MOST_RAYS, -3.0, 3.0))
+    host.spawn('one', '/one', wide)
+    host.spawn('two', '/two', wide, pose=Transform((2.0, 0.0, 0.2)))
+    with host.heard(LaserScan, '/one/scan') as one, host.heard(LaserScan, '/two/scan') as two:
+        host.next(one, 2)
+        host.wait(lambda: len(two) == 2)
+    assert threads == [threading.current_thread().name, 'sensors'] * 2
+
+
 def test_a_robot_that_goes_while_its_lidar_is_in_work(host, monkeypatch):
     monkeypatch.setattr(lidar, 'MOST_RAYS', 0)
     host.is_paced = True

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from amr_description.sim.sensor_schedule import noise_generator, SensorSchedule
+from amr_description.sim.sensor_schedule import CycleBudget, noise_generator, SensorSchedule
 
 MS = 1_000_000
 
@@ -52,3 +52,10 @@ def test_noise_is_normal():
     values = [noise_generator((0, 97), 'lidar', time).normal() for time in range(2000)]
     assert abs(np.mean(values)) < 0.1
     assert np.std(values) == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_budget_is_that_of_each_cycle():
+    budget = CycleBudget(1000)
+    assert [budget.take(0, 400) for _ in range(3)] == [True, True, False]
+    assert budget.take(0, 200)
+    assert [budget.take(10 * MS, amount) for amount in (1001, 1000, 1)] == [False, True, False]

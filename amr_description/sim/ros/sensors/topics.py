@@ -14,6 +14,7 @@ from amr_description.model.sensors import SensorMount
 from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.ros.sensors.worker import SensorWorker
+from amr_description.sim.sensor_schedule import CycleBudget
 from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
 
@@ -44,6 +45,8 @@ class SensorContext:
     """Copies the state of an instant for it."""
     scenes: CopiedScenes
     """What is to be seen in these copies; on the thread of ``worker``."""
+    ray_budget: CycleBudget
+    """The rays that lidars may cast on the control thread in one cycle."""
     renderer: Renderer
     """Makes the pictures of cameras; on the thread of ``worker``."""
 
