@@ -20,7 +20,7 @@ import numpy as np
 
 from amr_description.model.sensors import Camera, Distortion, Intrinsics
 
-_ITERATIONS = 50
+_ITERATIONS = 20
 _TOLERANCE = 1e-10
 """Of normalized coordinates; a pixel is a thousandth and more."""
 _NONE = 1e-9
@@ -69,13 +69,19 @@ def undistort(points: np.ndarray, lens: Distortion) -> np.ndarray:
     """
     if lens.is_none:
         return points.copy()
-    seen = points.copy()
+    flat = points.reshape(-1, 2)
+    found = flat.copy()
     with np.errstate(all='ignore'):
+        rest = np.arange(len(flat))
         for _ in range(_ITERATIONS):
-            error = distort(seen, lens) - points
-            if not (np.abs(error) > _TOLERANCE).any():
+            at = found[rest]
+            error = distort(at, lens) - flat[rest]
+            is_open = np.abs(error).max(axis=-1) > _TOLERANCE
+            if not is_open.any():
                 break
-            seen -= _solve(_jacobian(seen, lens), error)
+            rest, at, error = rest[is_open], at[is_open], error[is_open]
+            found[rest] = at - _solve(_jacobian(at, lens), error)
+        seen: np.ndarray = found.reshape(points.shape)
         jacobian = _jacobian(seen, lens)
         error = np.abs(distort(seen, lens) - points).max(axis=-1)
         # Beyond the fold the determinant changes its sign: another solution, which is not seen.
