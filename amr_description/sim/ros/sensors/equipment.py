@@ -17,9 +17,10 @@ from amr_description.model.sensors import Camera, ContactSensor, Lidar
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.ros.sensors.camera import CameraTopics
 from amr_description.sim.ros.sensors.contact import ContactTopics
-from amr_description.sim.ros.sensors.lidar import LidarTopics
+from amr_description.sim.ros.sensors.lidar import LidarTopics, MOST_RAYS
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
 from amr_description.sim.ros.sensors.worker import SensorWorker
+from amr_description.sim.sensor_schedule import CycleBudget
 from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
 
@@ -52,6 +53,7 @@ class Equipment:
         self._worker = SensorWorker(loop_publisher, log, is_paced)
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
+        self._ray_budget = CycleBudget(MOST_RAYS)
         self.renderer = ChosenRenderer(camera_renderer, log)
         """Of the pictures of cameras."""
 
@@ -68,6 +70,7 @@ class Equipment:
             self._worker,
             self._states,
             self._scenes,
+            self._ray_budget,
             self.renderer,
         )
 

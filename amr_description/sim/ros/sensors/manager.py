@@ -10,19 +10,7 @@ from rclpy.node import Node
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.errors import AmrError
-<<<<<<< HEAD
 from amr_description.model.sensors import WorldSensor
-=======
-from amr_description.model.sensors import Camera, ContactSensor, Lidar, WorldSensor
-from amr_description.sim.cameras.choice import ChosenRenderer
-from amr_description.sim.ros.sensors.camera import CameraTopics
-from amr_description.sim.ros.sensors.contact import ContactTopics
-from amr_description.sim.ros.sensors.lidar import LidarTopics, MOST_RAYS
-from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-from amr_description.sim.ros.sensors.worker import SensorWorker
-from amr_description.sim.sensor_schedule import CycleBudget, SensorSchedule
-from amr_description.sim.state_copy import CopiedScenes, StateCopier
->>>>>>> a176cb3 (sim/ros: Keep what lidars cast on the control thread in one cycle below 0.6 ms, however many they are)
 from amr_description.sim.world import MujocoWorld
 
 if TYPE_CHECKING:  # a tenth of the simulator's start; most robots have no such sensors
@@ -68,16 +56,8 @@ class SensorManager:
         self._log = log
         self._is_paced = is_paced
         self._has_ticked = has_ticked
-<<<<<<< HEAD
         self._camera_renderer = camera_renderer
         self._equipment: Equipment | None = None
-=======
-        self._worker = SensorWorker(loop_publisher, log, is_paced)
-        self._states = StateCopier(world)
-        self._scenes = CopiedScenes()
-        self._ray_budget = CycleBudget(MOST_RAYS)
-        self._renderer = ChosenRenderer(camera_renderer, log)
->>>>>>> a176cb3 (sim/ros: Keep what lidars cast on the control thread in one cycle below 0.6 ms, however many they are)
         self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
         self._is_requested = False
         self.on_first: Callable[[], None] | None = None
@@ -95,7 +75,6 @@ class SensorManager:
         """
         if not sensors:
             return
-<<<<<<< HEAD
         from amr_description.sim.ros.sensors.equipment import Equipment, TOPICS
         from amr_description.sim.sensor_schedule import SensorSchedule
 
@@ -109,22 +88,6 @@ class SensorManager:
                 self._camera_renderer,
             )
         context = self._equipment.context(name, namespace)
-=======
-        context = SensorContext(
-            self._node,
-            self._loop_publisher,
-            self._world,
-            self._world.robot(name),
-            namespace,
-            self._log,
-            self._is_paced,
-            self._worker,
-            self._states,
-            self._scenes,
-            self._ray_budget,
-            self._renderer,
-        )
->>>>>>> a176cb3 (sim/ros: Keep what lidars cast on the control thread in one cycle below 0.6 ms, however many they are)
         if self.on_first is not None:
             self.on_first()
             self.on_first = None
