@@ -68,21 +68,18 @@ class Simulator:
 
     def profile(self, seconds: float) -> Profile:
         """Measure a cycle. Raises BringupError: the robot does not drive."""
-        profile = self._profile(seconds)
+        profile = self.profile_at_rest(seconds)
         if profile.speed < 0.1:
             raise BringupError('the robot does not drive')
         return profile
-
-    def cycle(self, seconds: float) -> float:
-        """Return the processor time of a cycle, µs; of a robot at rest, too."""
-        return self._profile(seconds).cycle
 
     def time(self) -> float:
         """Return the simulated time, s."""
         self.ask('time')
         return float(self.answer())
 
-    def _profile(self, seconds: float) -> Profile:
+    def profile_at_rest(self, seconds: float) -> Profile:
+        """Measure a cycle, whether the robot drives or not."""
         self.ask('profile', seconds=seconds)
         return Profile.from_json(self.answer())
 

@@ -77,7 +77,7 @@ GOALS = (
         'picture', 'pictures 320 × 240 of rays', '/s of a core', _AT_LEAST, 20.0, 'sensors', False
     ),
     Goal('depth', 'depths 320 × 240 of rays', '/s of a core', _AT_LEAST, 40.0, 'sensors', False),
-    Goal('unheard', 'sensors that nobody hears, a cycle', 'µs', _AT_MOST, 3.0, 'sensors', False),
+    Goal('unheard', 'sensors that nobody hears, a cycle', 'µs', _AT_MOST, 5.0, 'sensors', False),
     Goal('sensors late', 'all sensors on, lateness p99 more by', 'ms', _AT_MOST, 1.0, 'sensors'),
     Goal('memory', 'one simulated hour, memory', 'MB more', _AT_MOST, 1.0, 'memory', False),
 )
