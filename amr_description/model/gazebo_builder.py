@@ -8,6 +8,8 @@ import math
 import re
 from typing import Any
 
+from lxml import etree
+
 from amr_description.model.base_interfaces import BASE, COMMAND_AXES, TRUTH, truth_prefix
 from amr_description.model.gazebo_plugins import PluginElement
 from amr_description.model.hardware_info import (
@@ -369,6 +371,16 @@ def node_name(name: str, default: str) -> str:
 def origin_of(plugin: PluginElement) -> str:
     """Return what a plugin is called in messages."""
     return f'plugin {quote(plugin.name or plugin.filename)}'
+
+
+def gz_sensor_topic(sensor: etree._Element) -> str:
+    """
+    Return the topic of a sensor of new Gazebo as it is usually bridged; '' if the tag names none.
+
+    With and without a leading slash it is the same one there; here it is in the robot's namespace.
+    """
+    topic = gz_topic(PluginElement(sensor), 'topic', '').strip('/')
+    return '' if topic == '__default_topic__' else topic
 
 
 def gz_topic(plugin: PluginElement, element: str, default: str) -> str:

@@ -18,7 +18,7 @@ from typing import Any
 from lxml import etree
 
 from amr_description.model.gazebo import gazebo_sensors_of, Noise
-from amr_description.model.gazebo_builder import Builder, gz_topic, HIGHEST_RATE, node_name
+from amr_description.model.gazebo_builder import Builder, gz_sensor_topic, HIGHEST_RATE, node_name
 from amr_description.model.gazebo_plugins import PluginElement
 from amr_description.model.hardware_info import (
     IMU_INTERFACES,
@@ -30,7 +30,6 @@ from amr_description.model.xml_reader import parse_number
 from amr_description.text import quote
 
 _FRAMES = ('gz_frame_id', 'ignition_frame_id')
-_DEFAULT_TOPIC = '__default_topic__'
 
 
 def add_instrument(builder: Builder, sensor: etree._Element, reference: str) -> bool:
@@ -105,7 +104,7 @@ def _add_imu(builder: Builder, sensor: etree._Element, name: str, link: str) -> 
         frame = plugin.text('frame_name', 'frameName')
         node = node_name(plugin.name, node_name(name, 'imu'))
     else:
-        topic, node = _topic(sensor, 'imu'), node_name(name, 'imu')
+        topic, node = gz_sensor_topic(sensor) or 'imu', node_name(name, 'imu')
         frame = PluginElement(sensor).text(*_FRAMES)
     noises = _noises_of(builder.robot, name)
     covariances = {
@@ -140,7 +139,7 @@ def _add_magnetometer(builder: Builder, sensor: etree._Element, name: str, link:
             **({'static_covariance': covariance} if covariance else {}),
             **_rate(builder, name, _update_rate(builder, sensor, name)),
         },
-        {'~/magnetic_field': _topic(sensor, 'magnetometer')},
+        {'~/magnetic_field': gz_sensor_topic(sensor) or 'magnetometer'},
         name=node_name(name, 'magnetometer'),
         origin=f'sensor {quote(name)}',
     )
@@ -157,7 +156,7 @@ def _add_force_torque(builder: Builder, sensor: etree._Element, name: str, refer
         name,
         joint.child,
         frame or (joint.parent if axes == 'parent' else joint.child),
-        _topic(sensor, f'{node_name(name, "sensor")}/force_torque'),
+        gz_sensor_topic(sensor) or f'{node_name(name, "sensor")}/force_torque',
         _update_rate(builder, sensor, name),
     )
 
@@ -181,11 +180,6 @@ def _joint_of(robot: Robot, reference: str) -> Any:
     if robot.has_joint(reference):
         return robot.joint(reference)
     return robot.parent_joint(reference) if robot.has_link(reference) else None
-
-
-def _topic(sensor: etree._Element, default: str) -> str:
-    topic = gz_topic(PluginElement(sensor), 'topic', default)
-    return default if topic == _DEFAULT_TOPIC else topic
 
 
 def _update_rate(builder: Builder, sensor: etree._Element, name: str) -> float:

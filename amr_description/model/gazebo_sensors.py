@@ -34,7 +34,7 @@ import math
 from lxml import etree
 
 from amr_description.model.gazebo import sensor_faults, WORLD_SENSORS
-from amr_description.model.gazebo_builder import gz_topic
+from amr_description.model.gazebo_builder import gz_sensor_topic
 from amr_description.model.gazebo_classic_sensors import read_classic
 from amr_description.model.gazebo_plugins import PluginElement, sensors_of
 from amr_description.model.gazebo_sensor_tags import (
@@ -92,7 +92,6 @@ _FRAMES = ('gz_frame_id', 'ignition_frame_id', 'frame_id')
 """New Gazebo's names of the frame, the newest first; SDF's last."""
 _SONAR_RAYS = 9
 """Along either side of the square in which a sonar looks."""
-_DEFAULT_TOPIC = '__default_topic__'
 _SIMILAR = 0.6
 
 
@@ -282,7 +281,7 @@ def _lidar(tag: SensorTag) -> Lidar:
         each
         for each in tag.element.getroottree().iterfind('gazebo/sensor')
         if _READERS.get(each.get('type', '')) is _lidar
-        and not _named_topic(each)
+        and not gz_sensor_topic(each)
         and _classic_plugin(each) is None
     ]
     default = 'scan' if len(unnamed) < 2 else f'{topic_part(tag.name)}/scan'
@@ -326,7 +325,7 @@ def _any_camera(tag: SensorTag, *, has_colour: bool = True) -> Camera:
 
 def _contact(tag: SensorTag) -> ContactSensor:
     contact = tag.element.find('contact')
-    default = _named_topic(contact) if contact is not None else ''
+    default = gz_sensor_topic(contact) if contact is not None else ''
     topic = _topic(tag, default or f'{topic_part(tag.name)}/contact')
     mount = tag.mount(tag.frame(*_FRAMES) or tag.link)
     return ContactSensor(mount, tag.collisions(), topic)
@@ -344,18 +343,8 @@ def _sonar(tag: SensorTag) -> Lidar:
     )
 
 
-def _named_topic(sensor: etree._Element) -> str:
-    """
-    Return a topic of new Gazebo as it is usually bridged to ROS; '' if the tag names none.
-
-    With and without a leading slash it is the same one there; here it is in the robot's namespace.
-    """
-    topic = gz_topic(PluginElement(sensor), 'topic', '').strip('/')
-    return '' if topic == _DEFAULT_TOPIC else topic
-
-
 def _topic(tag: SensorTag, default: str) -> str:
-    return tag.topic(_named_topic(tag.element) or default)
+    return tag.topic(gz_sensor_topic(tag.element) or default)
 
 
 def _info_topic(tag: SensorTag) -> str:

@@ -304,6 +304,13 @@ def test_inertial_measurement_units(inside, name, topic, frame):
     assert not found.not_simulated
 
 
+def test_a_leading_slash_means_nothing_in_gazebo():
+    """Two robots of one description have topics of their own."""
+    found = translated(reference='<sensor name="a" type="imu"><topic>/imu</topic></sensor>')
+    (unit,) = found.controllers
+    assert unit.names_of_topics('/robot1') == {'~/imu': '/robot1/imu'}
+
+
 def test_a_magnetometer():
     noise = '<noise type="gaussian"><stddev>2e-7</stddev></noise>'
     found = translated(
