@@ -30,6 +30,8 @@ _LARGEST = 4096
 _BY_PROCESSOR = re.compile('llvmpipe|softpipe|swrast')
 _SHADOWS_BY_PROCESSOR = 1024
 """Pixels of a side of its map of shadows: MuJoCo's 4096 take 60 ms of the processor, this 17."""
+_NEAREST, _FARTHEST = 1e-3, 1e5
+"""m."""
 _SEEN, _UNSEEN = 0, 5
 """Geom groups."""
 _FLAGS = mujoco.mjtRndFlag
@@ -84,11 +86,12 @@ class GlRenderer(Renderer):
             scene = self._bind(shot, view, data)
             camera = shot.camera
             color = depth = None
+            clip = _ends(camera.near, camera.far)
             if shot.with_color:
-                color, depth = self._draw(scene, shot, view, camera.near, camera.far)
+                color, depth = self._draw(scene, shot, view, *clip)
             if shot.with_depth:
-                ends = (camera.depth_near, camera.depth_far)
-                if depth is None or ends != (camera.near, camera.far):
+                ends = _ends(camera.depth_near, camera.depth_far)
+                if depth is None or ends != clip:
                     _, depth = self._draw(scene, shot, view, *ends, with_color=False)
                 depth[depth >= ends[1]] = np.inf
         except mujoco.FatalError as error:
@@ -121,7 +124,7 @@ class GlRenderer(Renderer):
         model = self._model
         assert model is not None
         # An infinite plane is drawn as far as the model's own far plane.
-        far = max(shot.camera.far, shot.camera.depth_far)
+        _, far = _ends(0.0, max(shot.camera.far, shot.camera.depth_far))
         model.vis.map.zfar = max(model.vis.map.zfar, 2.0 * far / model.stat.extent)
         camera = mujoco.MjvCamera()
         mujoco.mjv_updateScene(model, data, self._option, None, camera, self._shown, self._scene)
@@ -187,6 +190,12 @@ class GlRenderer(Renderer):
             if not self._has_sky:
                 color[depth >= far] = BACKGROUND
         return color, depth
+
+
+def _ends(near: float, far: float) -> tuple[float, float]:
+    """Return the ends of what is seen as OpenGL can have them, m."""
+    near = max(near, _NEAREST)
+    return near, min(max(far, 2.0 * near), _FARTHEST)
 
 
 def _place(scene: mujoco.MjvScene, shot: Shot, view: _View, near: float, far: float) -> None:

@@ -95,6 +95,13 @@ def test_worlds_and_sizes_may_change(renderer):
             assert depth == pytest.approx(1.5 + number, abs=1e-3)
 
 
+def test_a_camera_without_a_near_and_a_far_plane_sees(renderer):
+    camera = camera_of(near=0.0, far=math.inf, depth_near=0.0, depth_far=math.inf)
+    picture = take(renderer, camera, state_of('<geom type="box" size="1 9 9" pos="5 0 0"/>'))
+    assert picture.depth == pytest.approx(4.0, abs=1e-3)
+    assert len({*picture.color[30, 40]}) == 1
+
+
 def test_where_opengl_is_not_there_rays_make_the_pictures():
     def make():
         raise RenderingError('libEGL.so.1 is not on this machine')
