@@ -3,7 +3,7 @@
 """The lidar of the shipped robot, in lock-step: when its scans come, and that runs are equal."""
 
 import pytest
-from rclpy.qos import qos_profile_sensor_data
+from rclpy.qos import QoSProfile
 from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
 from support.paths import ROOT
@@ -36,7 +36,7 @@ class Listener:
         self.buffer = Buffer()
         self.tf = TransformListener(self.buffer, sim.node, spin_thread=False)
         self.subscription = sim.node.create_subscription(
-            LaserScan, '/scan', self.hear, qos_profile_sensor_data
+            LaserScan, '/scan', self.hear, QoSProfile(depth=100)
         )
         while not self.scans:
             sim.run(0.1)
