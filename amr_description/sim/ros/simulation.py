@@ -40,7 +40,6 @@ from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.ros.sensors.manager import SensorManager
-from amr_description.sim.ros.sensors.measure_service import MeasureService
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import WorldSettings
 
@@ -224,6 +223,8 @@ class Simulation:
         return self._pacer.factor > 0.0 and self.loop_thread.loop.is_running
 
     def _serve_measurements(self) -> None:
+        from amr_description.sim.ros.sensors.measure_service import MeasureService
+
         loop = self.loop_thread.loop
 
         def is_standing_still() -> bool:
