@@ -97,6 +97,22 @@ def host():
     rclpy.try_shutdown()
 
 
+@pytest.mark.parametrize('topic', ['/clock', '/taken', f'/{"a" * 300}'])
+def test_a_topic_that_cannot_be_made_is_a_line_and_the_other_sensors_measure(host, topic):
+    host.node.create_publisher(Range, '/taken', 10)
+    bad = replace(LIDAR, points_topic=topic, scan_topic='bad')
+    host.spawn('amr', '/', bad, LIDAR)
+    [line] = host.lines
+    assert line.startswith("sensor 'lidar' of 'amr' measures nothing: ")
+    assert line.endswith('; give it another <topic>, or its robot a namespace')
+    assert topic in line
+    assert 'publisher.c' not in line
+    assert '\n' not in line
+    assert [each.topic_name for each in host.node.publishers].count('/bad') == 0
+    with host.heard(LaserScan, '/scan') as scans:
+        host.next(scans)
+
+
 @pytest.mark.parametrize('qos', [qos_profile_sensor_data, QoSProfile(depth=10)])
 def test_a_scan_is_what_the_description_says(host, qos):
     host.spawn('amr', '/', LIDAR)

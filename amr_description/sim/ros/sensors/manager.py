@@ -5,12 +5,14 @@
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.errors import AmrError
 from amr_description.model.sensors import WorldSensor
+from amr_description.ros.rclpy_internals import RCLError
 from amr_description.sim.world import MujocoWorld
 
 if TYPE_CHECKING:  # a tenth of the simulator's start; most robots have no such sensors
@@ -96,11 +98,14 @@ class SensorManager:
         for sensor in sensors:
             if type(sensor) not in TOPICS:
                 continue
+            before = set(self._node.publishers)  # some of its topics may be there
             try:
                 topics = TOPICS[type(sensor)](sensor, context)
-            except AmrError as error:
-                text = f"sensor '{sensor.mount.name}' of '{name}' measures nothing: {error}"
-                self._log(Severity.WARN, text)
+            except (AmrError, RCLError, InvalidTopicNameException) as error:
+                for publisher in set(self._node.publishers) - before:
+                    self._node.destroy_publisher(publisher)
+                text = f"sensor '{sensor.mount.name}' of '{name}' measures nothing: "
+                self._log(Severity.WARN, text + _reason(error))
                 continue
             made.append((SensorSchedule(sensor.mount.rate, now), topics))
         self._robots = self._robots | {name: tuple(made)}
@@ -139,3 +144,11 @@ class SensorManager:
                         topics.answer(time)
                     elif is_due and topics.is_heard:
                         topics.measure(time)
+
+
+def _reason(error: Exception) -> str:
+    """Say why a sensor has no topics, without the line of C that rcl names, and what would do."""
+    if isinstance(error, AmrError):
+        return str(error)
+    what = ' '.join(map(str.strip, str(error).splitlines()[:2])).partition(', at ')[0]
+    return f'{what}; give it another <topic>, or its robot a namespace'
