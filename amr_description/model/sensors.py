@@ -236,3 +236,9 @@ class RobotSensors:
     findings: tuple[Finding, ...] = ()
     lacking: tuple[tuple[str, str], ...] = ()
     faulty: frozenset[str] = frozenset()
+
+
+def frame_in(namespace: str, name: str) -> str:
+    """Return a frame with the prefix that all frames of a robot have: its namespace."""
+    prefix = namespace.strip('/')
+    return name if not prefix or name.startswith(f'{prefix}/') else f'{prefix}/{name}'

@@ -144,7 +144,7 @@ class LoopPublisher:
         self.reporters: list[Callable[[int], None]] = []
         """Called at the end of a cycle with its time, ns; what they send goes out with it."""
         self.followers: list[Callable[[], None]] = []
-        """Called when all of a cycle has gone out."""
+        """Called when all of a cycle has gone out; they may take as long as they take."""
         self._outbox: list[tuple[LoopTopic, Any]] = []
         self._topics: tuple[LoopTopic, ...] = ()
         self._changing_topics = threading.Lock()
@@ -220,6 +220,11 @@ class LoopPublisher:
                 if topic.newest is not _NOTHING:
                     self._write(topic, topic.newest)
                     topic.newest = _NOTHING
+        if self.followers:
+            self.follow()
+
+    def follow(self) -> None:
+        """Have done what waits for the end of a cycle, such as pictures that time waits for."""
         for follow in self.followers:
             follow()
 

@@ -5,8 +5,9 @@ Logs when the control loop stands, and in which call.
 
 A thread looks ten times a second whether a cycle has ended. A loop that waits (for its next
 instant, for a call while paused) does not stand; a call that was handed to it between two cycles,
-such as a spawn or a switch, may take as long as it takes. Nor does it stand while the thread is
-ready to run and the machine has no processor for it.
+such as a spawn or a switch, may take as long as it takes, and so may pictures that time waits for
+(:meth:`LoopPublisher.follow`). Nor does it stand while the thread is ready to run and the machine
+has no processor for it.
 
 A call of C that keeps the interpreter's lock holds this thread up too: what it logs then comes
 when that call has returned. While it lasts, a thread of ``faulthandler``, which needs no lock,
@@ -28,6 +29,7 @@ from typing import Protocol
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Loop
+from amr_description.control.ros.loop_publisher import LoopPublisher
 
 LIMIT = 0.5
 """s of a cycle from which on the loop stands."""
@@ -106,8 +108,9 @@ class LoopWatchdog:
         if self._has_moved() or self._time_standing() < LIMIT:
             return None
         frame = sys._current_frames().get(self._watched)
-        # Calls between two cycles, start and shutdown take their time.
-        in_cycle = is_in(frame, Loop.run) and not is_in(frame, Loop._run_calls)
+        # Calls between two cycles, start, shutdown and what follows a cycle take their time.
+        others = Loop._run_calls, LoopPublisher.follow
+        in_cycle = is_in(frame, Loop.run) and not any(is_in(frame, each) for each in others)
         return frame if in_cycle else None
 
     def _run(self) -> None:

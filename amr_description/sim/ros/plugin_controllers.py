@@ -20,6 +20,7 @@ from amr_description.control.ros.controller_manager_node import RunningManager
 from amr_description.control.switching import Strictness
 from amr_description.errors import AmrError
 from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
+from amr_description.model.sensors import frame_in
 from amr_description.text import quote
 
 _SWITCH_TIMEOUT = 5_000_000_000
@@ -64,8 +65,10 @@ def node_arguments(controller: PluginController, namespace: str, update_rate: in
     """
     arguments = []
     for name, value in controller.parameters.items():
-        limited = min(value, update_rate) if name == 'update_rate' else value
-        arguments += ['-p', f'{name}:={json.dumps(limited)}']
+        given = min(value, update_rate) if name == 'update_rate' else value
+        if name == 'frame_id' and 'sensor_name' in controller.parameters:
+            given = frame_in(namespace, value)
+        arguments += ['-p', f'{name}:={json.dumps(given)}']
     for before, after in controller.names_of_topics(namespace).items():
         if before != after:
             arguments += ['-r', f'{before}:={after}']

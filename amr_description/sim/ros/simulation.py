@@ -242,6 +242,7 @@ class Simulation:
 
     def close(self) -> None:
         """Stop the control thread; then destroy the robots' nodes."""
+        self._sensors.stop()
         self.loop_thread.stop()
         self._sensors.close()
         self.entities.destroy()

@@ -8,10 +8,12 @@ import time
 from types import SimpleNamespace
 
 import pytest
+from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros import loop_thread
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.control.ros.loop_watchdog import WatchdogClock
 
@@ -153,6 +155,17 @@ def test_a_call_between_two_cycles_may_take_as_long_as_it_takes(running, clock):
     done.set()
     run_a_cycle(thread)
     clock.look(3)
+    assert lines == []
+
+
+def test_what_follows_a_cycle_may_take_as_long_as_it_takes(running, clock):
+    """Time waits for a picture, and the end of the process does not."""
+    _, world, lines = running
+    publisher = LoopPublisher(RcutilsLogger('test'))
+    publisher.followers.append(lambda: World.publish(world, 0))
+    world.publish = lambda _: publisher.follow()
+    world.hold()
+    clock.look(20)
     assert lines == []
 
 

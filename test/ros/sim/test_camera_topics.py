@@ -168,6 +168,20 @@ def test_while_time_waits_each_measurement_is_made_and_two_runs_are_equal(host):
     assert len({*runs[0].values()}) == 8  # the noise differs
 
 
+def test_a_stop_does_not_wait_for_a_picture_that_time_waits_for(host):
+    host.spawn(CAMERA)
+    begun, go_on = threading.Event(), threading.Event()
+    host.sensors._equipment.renderer.render = lambda _: (begun.set(), go_on.wait(PATIENCE))  # noqa: SLF001
+    with host.heard(Image, '/camera/image'):
+        loop = threading.Thread(target=host.turn, args=(9,))
+        loop.start()
+        assert begun.wait(PATIENCE)
+        host.sensors.stop()
+        loop.join(PATIENCE)
+        assert not loop.is_alive()
+        go_on.set()
+
+
 def test_while_cycles_are_paced_none_waits_for_a_picture(host):
     host.spawn(CAMERA)
     host.is_paced = True

@@ -78,7 +78,7 @@ def test_arguments_of_a_node():
         '-p',
         'sensor_name:="unit"',
         '-p',
-        'frame_id:="base_link"',
+        'frame_id:="r2/base_link"',
         '-p',
         'update_rate:=100',
         '-r',
@@ -120,3 +120,10 @@ def test_who_waits_for_an_executor_that_never_runs_is_released(context):
     assert task.done()
     work.close()
     waiting.shutdown()
+
+
+@pytest.mark.parametrize('namespace, frame', [('/', 'base'), ('/r2', 'r2/base')])
+def test_messages_of_an_imu_have_the_prefix_of_the_other_frames_of_the_robot(namespace, frame):
+    imu = '<sensor name="imu" type="imu"><gz_frame_id>base</gz_frame_id></sensor>'
+    [unit] = [each for each in translated(reference=imu).controllers if 'imu' in each.type]
+    assert f'frame_id:="{frame}"' in node_arguments(unit, namespace, 100)

@@ -93,6 +93,10 @@ class Equipment:
             self._large = LargeMessageNode(self._node, 'sensors')
         return self._large
 
+    def stop(self) -> None:
+        """Begin no measurement any more, and have nobody wait for one."""
+        self._worker.stop()
+
     def close(self) -> None:
         """End the thread that measures; the control thread has ended."""
         self._worker.close(self.renderer.close)

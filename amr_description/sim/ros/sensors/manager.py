@@ -123,6 +123,11 @@ class SensorManager:
         large = () if self._equipment is None else self._equipment.publishers
         return (*self._node.publishers, *large)
 
+    def stop(self) -> None:
+        """Have the control thread wait for no measurement any more."""
+        if self._equipment is not None:
+            self._equipment.stop()
+
     def close(self) -> None:
         """End the thread that measures; the control thread has ended."""
         if self._equipment is not None:

@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 from amr_description.control.contracts import Log
 from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.model.sensors import SensorMount
+from amr_description.model.sensors import frame_in, SensorMount
 from amr_description.ros.large_messages import LargeMessageNode
 from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView
@@ -59,8 +59,7 @@ class SensorContext:
 
     def frame(self, name: str) -> str:
         """Return a frame with the prefix that all frames of the robot have: its namespace."""
-        prefix = self.namespace.strip('/')
-        return name if not prefix or name.startswith(f'{prefix}/') else f'{prefix}/{name}'
+        return frame_in(self.namespace, name)
 
 
 class SensorTopics(ABC):

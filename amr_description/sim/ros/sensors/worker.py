@@ -21,6 +21,8 @@ from amr_description.control.ros.loop_publisher import LoopPublisher
 
 _LOG_PERIOD = 10.0
 """s between two lines of a sensor whose measurements are left out."""
+_END_TIMEOUT = 0.5
+"""s that a measurement in work has to be finished at the end."""
 _PATIENCE = 2.0
 """s that the first measurement of a sensor may take without a line."""
 
@@ -29,7 +31,8 @@ class SensorWorker:
     """
     One thread for all sensors of a world; it starts with the first measurement.
 
-    :meth:`close` is called on the ROS thread, everything else on the control thread.
+    :meth:`stop` and :meth:`close` are called on the ROS thread, everything else on the control
+    thread.
     """
 
     def __init__(
@@ -45,7 +48,7 @@ class SensorWorker:
         """
         self.log = log
         self.is_paced = is_paced
-        self._requested: list[SensorTask] = []
+        self._requested: list[tuple[SensorTask, Callable[[], None]]] = []
         """Of this cycle."""
         self._queue: deque[SensorTask | None] = deque()
         self._changed = threading.Condition()
@@ -64,9 +67,9 @@ class SensorWorker:
         """
         return SensorTask(self, name, remedy)
 
-    def request(self, task: 'SensorTask') -> None:
-        """Measure when this cycle is published."""
-        self._requested.append(task)
+    def request(self, task: 'SensorTask', measure: Callable[[], None]) -> None:
+        """Have a task call ``measure`` when this cycle is published."""
+        self._requested.append((task, measure))
 
     def wait_for(self, task: 'SensorTask') -> None:
         """Wait until the measurement of a sensor is done, if one is in work."""
@@ -74,37 +77,49 @@ class SensorWorker:
             with self._changed:
                 self._changed.wait_for(lambda: self._is_closed or not task.is_busy)
 
+    def stop(self) -> None:
+        """Begin no measurement any more, and have nobody wait for one; from any thread."""
+        with self._changed:
+            self._is_closed = True
+            self._queue.clear()
+            self._changed.notify_all()
+
     def close(self, at_end: Callable[[], None]) -> None:
         """
-        End the thread; a measurement that it makes is finished, others are not begun.
+        End the thread, as soon as a measurement that it makes is finished.
+
+        One that takes longer is left to the end of the process.
 
         Args:
             at_end: What the thread does last, if it was there.
         """
+        self.stop()
         with self._changed:
-            self._is_closed = True
             self._at_end = at_end
-            self._queue.clear()
             self._queue.append(None)
             self._changed.notify_all()
         if self._thread is not None:
-            self._thread.join()
+            self._thread.join(_END_TIMEOUT)
 
     def _begin(self) -> None:
         """Hand what was asked for in this cycle to the thread; wait for it if time waits."""
         if not self._requested:
             return
         requested, self._requested = self._requested, []
+        for task, _ in requested:
+            self.wait_for(task)  # it began while the control thread did not wait
         with self._changed:
             if self._is_closed:
                 return
             if self._thread is None:
                 self._thread = threading.Thread(target=self._run, name='sensors', daemon=True)
                 self._thread.start()
-            self._queue.extend(requested)
+            for task, measure in requested:
+                task.begin(measure)
+                self._queue.append(task)
             self._changed.notify_all()
         if not self.is_paced():
-            for task in requested:
+            for task, _ in requested:
                 self.wait_for(task)
 
     def _run(self) -> None:
@@ -154,9 +169,11 @@ class SensorTask:
             self._leave_out()
             return
         self._made += 1
-        self._worker.wait_for(self)  # it began while the control thread did not wait
+        self._worker.request(self, measure)
+
+    def begin(self, measure: Callable[[], None]) -> None:
+        """Note what is to be made next."""
         self.is_busy, self._measure, self._asked = True, measure, wall.monotonic()
-        self._worker.request(self)
 
     def make(self) -> None:
         """Make the measurement; on the thread of the worker."""
