@@ -17,6 +17,9 @@ import numpy as np
 from amr_description.sim.rays import RayScene
 from amr_description.sim.world import MujocoWorld
 
+_POSITIONS = ('qpos', 'mocap_pos', 'mocap_quat')
+"""What poses follow from."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StateCopy:
@@ -49,7 +52,9 @@ class StateCopier:
         if latest is None or self._generation != engine.generation:
             self._generation = engine.generation
             model = copy.copy(engine.model)
-        elif latest.time == engine.time and np.array_equal(latest.qpos, data.qpos):
+        elif latest.time == engine.time and all(
+            np.array_equal(getattr(latest, name), getattr(data, name)) for name in _POSITIONS
+        ):
             return latest
         else:
             model = latest.model

@@ -3,7 +3,7 @@
 """The services of simulation_interfaces, asked of a simulator that began paused."""
 
 from action_msgs.msg import GoalStatus
-from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import Point, Pose, PoseStamped, Vector3
 import pytest
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
@@ -377,8 +377,15 @@ def test_several_are_spawned_and_one_that_fails_keeps_no_other_from_it(sim):
 
 
 def test_what_is_listed_can_be_spawned(sim):
-    (amr,) = sim.do(GetSpawnables).spawnables
+    listed = {each.uri.rpartition('/')[2]: each for each in sim.do(GetSpawnables).spawnables}
+    assert {*listed} == {'amr.urdf', 'amr_sensors.urdf.xacro'}
+    amr = listed['amr.urdf']
     assert sim.do(SpawnEntity, uri=amr.uri).entity_name == amr.description == 'amr'
+    away = PoseStamped(pose=Pose(position=Point(x=5.0)))
+    for each in listed.values():
+        name = f'{each.description}_too'
+        sim.do(SpawnEntity, name=name, uri=each.uri, entity_namespace='/too', initial_pose=away)
+        sim.do(DeleteEntity, entity=name)
     code, reason = sim.refused(GetSpawnables, sources=['/no/such/folder'])
     assert (code, "source '/no/such/folder'" in reason) == (Result.RESULT_NOT_FOUND, True)
 
