@@ -68,8 +68,8 @@ GOALS = (
     Goal('late', '1 kHz control, lateness p99', 'ms', _AT_MOST, 2.0, 'latency'),
     Goal('list', 'ros2 topic list', 's', _AT_MOST, 0.6, 'stack'),
     # All of what is published: both rates are means over some seconds, and not quite the same
-    # ones. 4 ms by which the first or the last message is late are a thousandth.
-    Goal('hz', 'ros2 topic hz of 1 kHz', '%', _AT_LEAST, 99.9, 'stack'),
+    # ones: 99.5 rounds to all of it, and 10 ms at either end are two thousandths.
+    Goal('hz', 'ros2 topic hz of 1 kHz', '%', _AT_LEAST, 99.5, 'stack'),
     Goal('scan', '360 rays in warehouse', 'ms', _AT_MOST, 0.5, 'sensors', False),
     Goal('scan load', '360 rays at 10 Hz, heard', '% of a core', _AT_MOST, 1.5, 'sensors', False),
     Goal('rings', '16 × 1024 rays at 10 Hz, factor 1 held', '', _AT_LEAST, 0.99, 'sensors'),

@@ -22,7 +22,6 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``wait_clock.py``         the time for which a program has waited, on a busy machine too
 ``polled_topic.py``       a subscription without a callback
 ``topic_thread.py``       a subscription with a thread that takes messages when they matter
-``large_messages.py``     a node for pictures and clouds, which are not sent all at once
 ``callback_thread.py``    subscriptions with a thread that calls their callbacks
 ``endpoints.py``          publishers and subscriptions of the graph, by their nodes
 ``local_participants.py`` DDS participants on this host, from the UDP ports in use

@@ -68,7 +68,7 @@ class Host:
     def heard(self, message_type, topic, qos=qos_profile_sensor_data):
         """The list of messages on a topic, from the time on when the publisher knows of us."""
         messages = []
-        publisher = next(p for p in self.sensors.publishers if p.topic_name == topic)
+        publisher = next(p for p in self.node.publishers if p.topic_name == topic)
         before = publisher.get_subscription_count()
         subscription = self.node.create_subscription(message_type, topic, messages.append, qos)
         self.wait(lambda: publisher.get_subscription_count() > before)

@@ -71,7 +71,7 @@ class Host:
         subscription = self.node.create_subscription(message_type, topic, messages.append, qos)
         self.wait(lambda: self.node.count_subscribers(topic) > before)
         self.wait(lambda: subscription.get_publisher_count() == self.node.count_publishers(topic))
-        publisher = next(p for p in self.sensors.publishers if p.topic_name == topic)
+        publisher = next(p for p in self.node.publishers if p.topic_name == topic)
         self.wait(lambda: publisher.get_subscription_count() > 0)
         yield messages
         self.node.destroy_subscription(subscription)

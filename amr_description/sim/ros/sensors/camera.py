@@ -115,14 +115,14 @@ class CameraTopics(SensorTopics):
     def destroy(self) -> None:
         """Remove the topics."""
         for publisher in self._publishers:
-            self._context.large_message_node().destroy_publisher(publisher)
+            self._context.node.destroy_publisher(publisher)
 
     def _topic(self, kind: Any, name: str, encode: Encode) -> '_BulkTopic':
         context = self._context
         topic = context.topic(name, self._camera.mount)
         if not topic:
             return _BulkTopic(None, encode)
-        publisher = context.large_message_node().create_publisher(kind, topic, QOS)
+        publisher = context.node.create_publisher(kind, topic, QOS)
         self._publishers.append(publisher)
         return _BulkTopic(context.loop_publisher.topic(publisher, _as_it_is), encode)
 

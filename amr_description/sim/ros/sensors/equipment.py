@@ -6,16 +6,14 @@ What the sensors of a world measure with, and what makes their topics.
 It is loaded with the first sensor: this is a tenth of the simulator's imports.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 
 from amr_description.control.contracts import Log
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.model.sensors import Camera, ContactSensor, Lidar
-from amr_description.ros.large_messages import LargeMessageNode
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.ros.sensors.camera import CameraTopics
 from amr_description.sim.ros.sensors.contact import ContactTopics
@@ -56,7 +54,6 @@ class Equipment:
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
         self._ray_budget = CycleBudget(MOST_RAYS)
-        self._large: LargeMessageNode | None = None
         self.renderer = ChosenRenderer(camera_renderer, log)
         """Of the pictures of cameras."""
 
@@ -75,23 +72,7 @@ class Equipment:
             self._scenes,
             self._ray_budget,
             self.renderer,
-            self._large_message_node,
         )
-
-    @property
-    def publishers(self) -> Iterator[Publisher]:
-        """Those of large messages."""
-        return iter(()) if self._large is None else self._large.publishers
-
-    def destroy_publisher(self, publisher: Publisher) -> None:
-        """Remove a publisher of either node."""
-        if not self._node.destroy_publisher(publisher) and self._large is not None:
-            self._large.destroy_publisher(publisher)
-
-    def _large_message_node(self) -> LargeMessageNode:
-        if self._large is None:
-            self._large = LargeMessageNode(self._node, 'sensors')
-        return self._large
 
     def stop(self) -> None:
         """Begin no measurement any more, and have nobody wait for one."""
@@ -100,5 +81,3 @@ class Equipment:
     def close(self) -> None:
         """End the thread that measures; the control thread has ended."""
         self._worker.close(self.renderer.close)
-        if self._large is not None:
-            self._large.destroy()

@@ -15,13 +15,11 @@ import time as wall
 from typing import Any
 
 from rclpy.exceptions import InvalidHandle
-from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import LaserScan, PointCloud2, Range
 
 from amr_description.control.ros.loop_publisher import LoopTopic
 from amr_description.model.sensors import Lidar
-from amr_description.ros.large_messages import LargeMessageNode
 from amr_description.sim.lidar import SimulatedLidar
 from amr_description.sim.ros.sensors.lidar_messages import (
     points_encoder,
@@ -78,13 +76,8 @@ class LidarTopics(SensorTopics):
         )
 
     def _topic(self, name: str, kind: Any, encode: ScanEncoder) -> LoopTopic:
-        publisher = self._node_of(kind).create_publisher(kind, name, QOS)
+        publisher = self._context.node.create_publisher(kind, name, QOS)
         return self._context.loop_publisher.topic(publisher, encode)
-
-    def _node_of(self, kind: Any) -> Node | LargeMessageNode:
-        """Return the node that has the publisher of a type of messages."""
-        is_large = kind is PointCloud2 and self._rays > MOST_RAYS  # 48 kB, nearly a datagram
-        return self._context.large_message_node() if is_large else self._context.node
 
     @property
     def is_heard(self) -> bool:
@@ -121,4 +114,4 @@ class LidarTopics(SensorTopics):
     def destroy(self) -> None:
         """Remove the topics; nothing is published after that."""
         for topic in self._topics:
-            self._node_of(topic.publisher.msg_type).destroy_publisher(topic.publisher)
+            self._context.node.destroy_publisher(topic.publisher)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
-from rclpy.publisher import Publisher
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_publisher import LoopPublisher
@@ -97,12 +96,12 @@ class SensorManager:
         now = self._world.time
         made = []
         for sensor in sensors:
-            before = set(self.publishers)  # some of its topics may be there
+            before = set(self._node.publishers)  # some of its topics may be there
             try:
                 topics = TOPICS[type(sensor)](sensor, context)
             except (AmrError, RCLError, InvalidTopicNameException) as error:
-                for publisher in set(self.publishers) - before:
-                    self._equipment.destroy_publisher(publisher)
+                for publisher in set(self._node.publishers) - before:
+                    self._node.destroy_publisher(publisher)
                 text = f"sensor '{sensor.mount.name}' of '{name}' measures nothing: "
                 self._log(Severity.WARN, text + _reason(error))
                 continue
@@ -116,12 +115,6 @@ class SensorManager:
             self._robots = {key: each for key, each in self._robots.items() if key != name}
             for _, topics in sensors:
                 topics.destroy()
-
-    @property
-    def publishers(self) -> tuple[Publisher, ...]:
-        """Those of all sensors, and others of the node; on the ROS thread."""
-        large = () if self._equipment is None else self._equipment.publishers
-        return (*self._node.publishers, *large)
 
     def stop(self) -> None:
         """Have the control thread wait for no measurement any more."""

@@ -36,11 +36,12 @@ class MeasureService:
         Begin to serve; on the ROS thread.
 
         Args:
-            node: Has the service.
+            node: Has the service, and the publishers of the sensors.
             sensors: All of them.
             submit: Has the control thread make a call between two cycles.
             is_standing_still: Whether no time passes; called on the control thread.
         """
+        self._node = node
         self._sensors = sensors
         self._submit = submit
         self._is_standing_still = is_standing_still
@@ -49,7 +50,7 @@ class MeasureService:
 
     async def _measure(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         # First: who is heard now is heard in the cycle that follows, too.
-        heard = [each.topic_name for each in self._sensors.publishers if _is_heard(each)]
+        heard = [each.topic_name for each in self._node.publishers if _is_heard(each)]
         response.success = await self._submit(self._request)
         if response.success:
             await self._submit(_nothing)  # after the cycle in which they measure

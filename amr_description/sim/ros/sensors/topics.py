@@ -11,7 +11,6 @@ from rclpy.node import Node
 from amr_description.control.contracts import Log
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.model.sensors import frame_in, SensorMount
-from amr_description.ros.large_messages import LargeMessageNode
 from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.ros.sensors.worker import SensorWorker
@@ -50,8 +49,6 @@ class SensorContext:
     """The rays that lidars may cast on the control thread in one cycle."""
     renderer: Renderer
     """Makes the pictures of cameras; on the thread of ``worker``."""
-    large_message_node: Callable[[], LargeMessageNode]
-    """Returns the one that has the publishers of pictures and large clouds."""
 
     def topic(self, name: str, mount: SensorMount) -> str:
         """Return the full name of a topic of a sensor; '' stays ''."""
