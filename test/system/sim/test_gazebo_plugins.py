@@ -59,7 +59,7 @@ def test_a_robot_of_new_gazebo_drives_at_once(sim):
 
     def has_gone():
         commands.publish(twist)  # the simulator may not know the publisher yet
-        return odometry and odometry[-1].pose.pose.position.x > 0.5
+        return states and odometry and odometry[-1].pose.pose.position.x > 0.5
 
     sim.wait(has_gone)
     assert odometry[-1].header.frame_id == 'odom'
