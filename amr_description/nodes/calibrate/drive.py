@@ -209,7 +209,8 @@ class CalibrationDrive:
     def _wait_for_rest(self) -> None:
         self._command = 0.0, 0.0
         self._send()
-        since = self._truth.stamp
+        # Of the newer one: messages of the other may still be on their way.
+        since = max(self._truth.stamp, self._odometry.stamp)
         self._spin_until(
             lambda: (
                 self._truth.is_at_rest
