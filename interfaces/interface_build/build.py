@@ -64,6 +64,7 @@ def _begin_work() -> None:
     """
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     generators.parse_each_file_once()
+    generators.scan_templates_quickly()
 
 
 def _finish(futures: Iterable) -> None:
