@@ -14,6 +14,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``sensor_msgs_py/``     point clouds as arrays, as ``import sensor_msgs_py``
 ``ament_copyright/``    the linter of copyright notices, as ``import ament_copyright``
 ``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph
+``navigation/``         maps, paths and filters; in ``navigation/ros/`` their topics
 ``ros/``                rclpy as every node uses it
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``
 ``bringup/``            the launcher: stacks, conditions, processes
@@ -23,6 +24,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``errors.py``           every error that is raised on purpose
 ``parameters.py``       tables of parameters: type, default, unit, bounds
 ``former_parameters.py`` parameters of earlier releases, and what is made of them
+``launch_log.py``       what a bring-up has warned of, for what it starts
 ``launch_variables.py`` ``$(var …)`` of launch files in parameters
 ``parameter_files.py``  ROS parameter files: read, searched for a node's sections, written
 ``registry.py``         names of plugins → ``module:attribute``, imported when used

@@ -26,6 +26,10 @@ Every error that this package raises on purpose.
     │   └── InvalidArgumentException  a name or a transform cannot be used
     ├── MessageFilterError   a message filter cannot do what was asked; an AssertionError, too
     ├── PointCloudError      points, fields and cloud do not fit; an AssertionError, too
+    ├── MapError             a map cannot be read, written or made
+    │   ├── MapMetadataError   … its .yaml file
+    │   └── MapDataError       … its image
+    ├── NavigationError      a goal cannot be planned, or not be driven to; has Nav2's error code
     ├── CalibrationError     the measured drive does not determine the parameters
     ├── ViewerError          the browser page's server cannot do what was asked
     │   └── ProtocolError    a message of a page is malformed
@@ -136,6 +140,31 @@ class MessageFilterError(AmrError, AssertionError):
 
 class PointCloudError(AmrError, AssertionError):
     """Points, fields and cloud do not fit together: in sensor_msgs_py an AssertionError."""
+
+
+class MapError(AmrError):
+    """A map cannot be read, written or made."""
+
+
+class MapMetadataError(MapError):
+    """The ``.yaml`` file of a map cannot be used."""
+
+
+class MapDataError(MapError):
+    """The image of a map cannot be used."""
+
+
+class NavigationError(AmrError):
+    """
+    A goal cannot be planned, or not be driven to.
+
+    ``error_code`` is that of the action of nav2_msgs that has failed: of ComputePathToPose from
+    200, of FollowPath from 100.
+    """
+
+    def __init__(self, error_code: int, text: str) -> None:
+        super().__init__(text)
+        self.error_code = error_code
 
 
 class CalibrationError(AmrError):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the plugins of one robot become: joints, sensors, the body; controllers; lines to say."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 import math
 import re
@@ -20,7 +20,7 @@ from amr_description.model.hardware_info import (
     InterfaceInfo,
 )
 from amr_description.model.robot import held_without_commands, Joint, Limit, Robot, WORLD_LINK
-from amr_description.model.sensors import WorldSensor
+from amr_description.model.sensors import topic_in, WorldSensor
 from amr_description.text import quote, quote_all
 
 JOINTS = 'gazebo_plugins'
@@ -50,6 +50,8 @@ class PluginController:
         topics: what it calls its topics → what the plugin calls them.
         namespace: of these, if the robot is spawned without one.
         origin: the plugin or sensor, for messages.
+        frames: the parameters that are frames and get the prefix of the robot's; the frames of
+            odometry get theirs from the controller.
     """
 
     name: str
@@ -58,6 +60,7 @@ class PluginController:
     topics: Mapping[str, str]
     namespace: str
     origin: str
+    frames: frozenset[str] = frozenset()
 
     def topics_in_use(self, namespace: str) -> list[str]:
         """Return the full names of the topics that it has, by its parameters."""
@@ -74,16 +77,14 @@ class PluginController:
         Return what it calls its topics → their full names.
 
         Args:
-            namespace: of its node. That of the robot, if it has one, counts before that of the
-                plugin, as with Gazebo's spawner.
+            namespace: of its node; see :func:`~amr_description.model.sensors.topic_in`.
         """
-        inside = namespace.rstrip('/') or f'/{self.namespace}'.rstrip('/')
         own = f'{namespace.rstrip("/")}/{self.name}'
 
         def full_name(topic: str) -> str:
             if topic.startswith('~'):
                 return f'{own}{topic[1:]}'
-            return topic if topic.startswith('/') else f'{inside}/{topic}'
+            return topic_in(namespace, topic, self.namespace)
 
         return {before: full_name(after) for before, after in self.topics.items()}
 
@@ -213,8 +214,9 @@ class Builder:
         name: str,
         origin: str,
         namespace: str = '',
+        frames: Collection[str] = (),
     ) -> None:
-        """Add a controller; ``kind`` is its type."""
+        """Add a controller; ``kind`` is its type, the rest as in :class:`PluginController`."""
         rate = parameters.get('update_rate')
         if rate is not None:
             self._rates.append(rate)
@@ -224,7 +226,7 @@ class Builder:
             number += 1
             free = f'{name}_{number}'
         self.controllers.append(
-            PluginController(free, kind, parameters, topics, namespace, origin)
+            PluginController(free, kind, parameters, topics, namespace, origin, frozenset(frames))
         )
 
     def broadcast(

@@ -92,6 +92,7 @@ def add_wrench(
         {'~/wrench': topic},
         name=node_name(name, 'force_torque_sensor'),
         origin=f'sensor {quote(name)}',
+        frames=('frame_id',),
         namespace=namespace,
     )
 
@@ -124,6 +125,7 @@ def _add_imu(builder: Builder, sensor: etree._Element, name: str, link: str) -> 
         {'~/imu': topic},
         name=node,
         origin=f'sensor {quote(name)}',
+        frames=('frame_id',),
         namespace=plugin.namespace if inside is not None else '',
     )
 
@@ -142,6 +144,7 @@ def _add_magnetometer(builder: Builder, sensor: etree._Element, name: str, link:
         {'~/magnetic_field': gz_sensor_topic(sensor) or 'magnetometer'},
         name=node_name(name, 'magnetometer'),
         origin=f'sensor {quote(name)}',
+        frames=('frame_id',),
     )
 
 

@@ -79,6 +79,24 @@ def origin_of(text: str, line: int) -> Origin | None:
     return origins[max(bisect_right(lines, line) - 1, 0)] if lines else None
 
 
+def line_from(text: str, file: str, line: int) -> int | None:
+    """Return the first line of a description that comes from a line of a file; None: none does."""
+    files, lines, origins = _table(text)
+    if file in files and not lines:
+        return line
+    found = (
+        at
+        for at, each in zip(lines, origins, strict=True)
+        if (each.file, each.line) == (file, line)
+    )
+    return next(found, None)
+
+
+def files_in(text: str) -> list[str]:
+    """Return the files that a description is of, as far as the text says so."""
+    return _table(text)[0]
+
+
 @lru_cache(maxsize=4)
 def _table(text: str) -> tuple[list[str], list[int], list[Origin]]:
     """Return the files, and the lines of which the origins are known, with these."""

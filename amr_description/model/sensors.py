@@ -49,22 +49,14 @@ class SensorMount:
     line: int = 0
     """Of its tag in the description."""
 
+    @property
+    def path(self) -> str:
+        """``LINK/NAME``: no other sensor of the robot has it, though one of its name may exist."""
+        return f'{self.link}/{self.name}'
+
     def full_name(self, topic: str, namespace: str) -> str:
-        """
-        Return the full name of a topic; '' stays ''.
-
-        A topic of new Gazebo that begins with the namespace already has none put before it.
-
-        Args:
-            topic: relative or absolute.
-            namespace: of the robot, absolute: ``/`` or ``/robot1``.
-        """
-        if not topic or topic.startswith('/'):
-            return topic
-        inside = namespace.rstrip('/') or f'/{self.namespace}'.rstrip('/')
-        return (
-            f'/{topic}' if inside and f'/{topic}'.startswith(f'{inside}/') else f'{inside}/{topic}'
-        )
+        """Return the full name of a topic; see :func:`topic_in`."""
+        return topic_in(namespace, topic, self.namespace)
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,6 +228,25 @@ class RobotSensors:
     findings: tuple[Finding, ...] = ()
     lacking: tuple[tuple[str, str], ...] = ()
     faulty: frozenset[str] = frozenset()
+
+
+def topic_in(namespace: str, topic: str, own_namespace: str) -> str:
+    """
+    Return the full name of a topic of a sensor or plugin; '' stays ''.
+
+    A topic of new Gazebo that begins with the namespace already has none put before it.
+
+    Args:
+        namespace: of the robot, absolute: ``/`` or ``/robot1``. If it has one it counts before
+            that of the sensor or plugin, as with Gazebo's spawner.
+        topic: relative or absolute.
+        own_namespace: of the sensor or plugin, relative; '': none.
+    """
+    if not topic or topic.startswith('/'):
+        return topic
+    inside = namespace.rstrip('/') or f'/{own_namespace}'.rstrip('/')
+    begins_with_it = bool(inside) and f'/{topic}'.startswith(f'{inside}/')
+    return f'/{topic}' if begins_with_it else f'{inside}/{topic}'
 
 
 def frame_in(namespace: str, name: str) -> str:

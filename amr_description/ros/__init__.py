@@ -30,9 +30,15 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 
 ``standing_clock.py``     the clock of an action server, which wakes nobody between goals
 ``messages.py``           stamps, poses and velocities ↔ messages
+``message_fields.py``     what was typed -> the fields of a message; ``auto`` and ``now``
 ``message_types.py``      classes of messages, services and actions by their names
 ``cdr.py``                serialized messages, read without making messages of them
 ``cdr_sensors.py``        … those of sensors, whose arrays are not copied
+``cdr_navigation.py``     … maps and paths
+``cdr_types.py``          … of any type: how they are laid out
+``cdr_cursor.py``         … a place in one, which goes on from part to part
+``cdr_fields.py``         … some numbers of them, by their paths
+``cdr_tree.py``           … or all of one, shortened, as JSON has it
 ``cdr_template.py``       … and made without making messages: by a template
 ``cdr_writer.py``         … likewise, field by field
 ========================= =========================================================================

@@ -20,25 +20,13 @@ from typing import Any, NamedTuple
 
 from rclpy.serialization import serialize_message
 
+from amr_description.ros.cdr_types import CODES
+
 _ENCAPSULATION = bytes((0, 1, 0, 0))
 """Plain CDR, little endian, no options."""
 
-_CODES = {
-    'boolean': '?',
-    'octet': 'c',
-    'char': 'B',
-    'int8': 'b',
-    'uint8': 'B',
-    'int16': 'h',
-    'uint16': 'H',
-    'int32': 'i',
-    'uint32': 'I',
-    'int64': 'q',
-    'uint64': 'Q',
-    'float': 'f',
-    'double': 'd',
-}
-"""Of ``struct``, by rclpy's name of the type."""
+_CODES = {**CODES, 'octet': 'c'}
+"""Of ``struct``, by rclpy's name of the type; an octet is ``bytes`` there."""
 
 _SEQUENCE = re.compile(r'sequence<(.+?)(?:, \d+)?>')
 _ARRAY = re.compile(r'(.+)\[\d+\]')

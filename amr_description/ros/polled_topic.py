@@ -9,8 +9,7 @@ pictures a second needs of a topic of 1 kHz only the latest message; DDS drops t
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.clock import ROSClock
@@ -22,12 +21,11 @@ from rclpy.subscription import Subscription
 from amr_description.ros.rclpy_internals import (
     clock_subscription,
     take_message,
-    take_numbered,
+    take_with_info,
 )
 
 
-@dataclass(frozen=True, slots=True)
-class NumberedMessage:
+class NumberedMessage(NamedTuple):
     """
     The bytes of a message.
 
@@ -35,11 +33,13 @@ class NumberedMessage:
         data: They.
         received: The system time when DDS received it, ns.
         number: Its number among all that its publisher has sent; None: the middleware counts none.
+        sent: The system time when its publisher sent it, ns; 0: the middleware does not tell.
     """
 
     data: bytes
     received: int
     number: int | None
+    sent: int = 0
 
 
 class PolledTopic[Sample]:
@@ -96,13 +96,24 @@ class PolledTopic[Sample]:
             with suppress(ValueError):
                 return self._read(data)
 
+    def take_timed(self) -> tuple[Sample, int] | None:
+        """Return what :meth:`take` does, with the system time when DDS received it, ns."""
+        while (message := self.take_numbered()) is not None:
+            with suppress(ValueError):
+                return self._read(message.data), message.received
+        return None
+
     def take_numbered(self) -> NumberedMessage | None:
         """Return the next message as it came, as :meth:`take` does a sample of it."""
         try:
-            taken = take_numbered(self._subscription)
+            taken = take_with_info(self._subscription)
         except InvalidHandle:
             return None
-        return None if taken is None else NumberedMessage(*taken)
+        if taken is None:
+            return None
+        data, info = taken
+        number = info.get('publication_sequence_number')
+        return NumberedMessage(data, info['received_timestamp'], number, info['source_timestamp'])
 
     def destroy(self) -> None:
         """Unsubscribe."""

@@ -143,6 +143,29 @@ def test_bytes_are_published_as_they_are_and_not_once_the_publisher_is_gone(node
         publish(b'')
 
 
+def test_bytes_are_published_without_the_lock(node):
+    assert rclpy_internals._publish_serialized_message() is not None, BROKEN
+    heard = []
+    publisher = node.create_publisher(String, 'words', 10)
+    node.create_subscription(String, 'words', heard.append, 10, raw=True)
+    publish = rclpy_internals.publisher_without_lock(publisher)
+    sent = serialize_message(String(data='ab\0' * 100_000))
+    publish(sent)
+    wait_until(node, lambda: heard or None, timeout=PATIENCE)
+    assert heard == [sent], BROKEN
+    node.destroy_publisher(publisher)
+    with pytest.raises(InvalidHandle):
+        publish(sent)
+
+
+def test_a_refusal_to_publish_without_the_lock_is_an_exception(node):
+    publish = rclpy_internals.publisher_without_lock(node.create_publisher(String, 'words', 10))
+    rclpy.shutdown()
+    for _ in range(2):  # rcl warns of an error that nobody has taken before the next one
+        with pytest.raises(rclpy_internals.RCLError, match='context is invalid'):
+            publish(serialize_message(String()))
+
+
 def test_a_goal_ends_by_itself_and_as_canceled_too(node):
     events, futures = (GoalEvent.SUCCEED, GoalEvent.ABORT, GoalEvent.CANCELED), []
     handles = []

@@ -20,7 +20,14 @@ from amr_description.model.description_file import (
     mappings_of,
     takes_arguments,
 )
-from amr_description.model.origins import Origin, origin_of, with_file, with_origins
+from amr_description.model.origins import (
+    files_in,
+    line_from,
+    Origin,
+    origin_of,
+    with_file,
+    with_origins,
+)
 from amr_description.model.urdf import load, parse
 from amr_description.model.xacro_markup import is_xacro
 
@@ -305,6 +312,10 @@ def test_origins_travel_with_the_text():
     assert parse(located).name == 'r'
     assert [origin_of(located, line) for line in (1, 2, 3, 4)] == [*origins.values(), origins[3]]
     assert located.count('<!-- from') == 1
+    assert [line_from(named, '/a b/--r.urdf', 3), line_from(named, 'other', 3)] == [3, None]
+    assert [line_from(located, each.file, each.line) for each in origins.values()] == [1, 2, 3]
+    assert line_from(located, 'r.xacro', 2) is None
+    assert files_in(located) == ['r.xacro', 'a|b.xacro', 'c.xacro']
 
 
 @pytest.mark.parametrize('rows', ['1', '1:2:3:4:5:6', '::::: 1', 'x'])

@@ -311,6 +311,13 @@ def test_a_leading_slash_means_nothing_in_gazebo():
     assert unit.names_of_topics('/robot1') == {'~/imu': '/robot1/imu'}
 
 
+def test_a_topic_that_begins_with_the_namespace_has_it_once():
+    found = translated(reference='<sensor name="a" type="imu"><topic>/r1/imu</topic></sensor>')
+    (unit,) = found.controllers
+    assert unit.names_of_topics('/r1') == {'~/imu': '/r1/imu'}
+    assert unit.names_of_topics('/r') == {'~/imu': '/r/r1/imu'}
+
+
 def test_a_magnetometer():
     noise = '<noise type="gaussian"><stddev>2e-7</stddev></noise>'
     found = translated(
