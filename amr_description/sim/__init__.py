@@ -34,10 +34,13 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log
 ``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
+``wrenches.py``         pushes from outside
 ``contacts.py``         what touches the collisions of a robot
 ``static_geometry.py``  the visible shapes of a world
 ``rays.py``             rays into the world: what is visible, and where they meet it
 ``terrain.py``          height fields as meshes, for rays
+``sections.py``         what of a geom is at a height
+``occupancy.py``        the map of a world: what is free, occupied and unknown
 ``lidar.py``            what a lidar measures
 ``cameras/``            pictures of the world, in colour and depth
 ``state_copy.py``       copies of the state, for threads that measure

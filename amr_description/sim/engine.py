@@ -139,6 +139,21 @@ class Engine:
             mujoco.mj_step(self.model, self.data, count)
         self._steps += count
 
+    def load(self, spec: mujoco.MjSpec, timestep: int) -> None:
+        """
+        Begin anew with another spec, at time 0.
+
+        Raises MuJoCo's ValueError; nothing has changed then.
+        """
+        spec.option.timestep = timestep / NANOSECONDS
+        model = spec.compile()
+        self.spec, self.model, self.data = spec, model, mujoco.MjData(model)
+        self._timestep, self._steps, self._time_at_step_0 = timestep, 0, 0
+        self._kinematics_at = None
+        self.rollers.bind(model)
+        self._solver.bind(model)
+        self.generation += 1
+
     def recompile(self) -> None:
         """
         Apply the edits of ``spec``; state and time are kept.

@@ -114,7 +114,6 @@ class SimulatedLidar:
         self.lidar = lidar
         self._robot = robot
         self._shape = (lidar.vertical.samples, lidar.horizontal.samples)
-        self._name = f'{lidar.mount.link}/{lidar.mount.name}'
         self._bias = self._draw_bias()
         self._binding: _Binding | None = None
         mount = lidar.mount.pose
@@ -163,7 +162,7 @@ class SimulatedLidar:
         lidar, noise = self.lidar, self.lidar.noise
         is_near, is_far = distances < lidar.range_min, distances > lidar.range_max
         if noise.stddev > 0.0:
-            generator = noise_generator(self._robot.seed, self._name, time)
+            generator = noise_generator(self._robot.seed, self.lidar.mount.path, time)
             distances += noise.stddev * generator.standard_normal(len(distances))
         distances += noise.mean + self._bias
         for step in (noise.precision, lidar.range_resolution):
@@ -178,7 +177,8 @@ class SimulatedLidar:
         noise = self.lidar.noise
         if not (noise.bias_mean or noise.bias_stddev):
             return 0.0
-        draw, sign = noise_generator(self._robot.seed, self._name, -1).standard_normal(2).tolist()
+        generator = noise_generator(self._robot.seed, self.lidar.mount.path, -1)
+        draw, sign = generator.standard_normal(2).tolist()
         return math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
 
     def _rays(self, body: int, scene: RayScene) -> tuple[Floats, Floats]:

@@ -156,6 +156,10 @@ class RayScene:
         weld = self.model.body_weldid
         return own[weld[self.model.geom_bodyid[own]] == weld[body]]
 
+    def is_seen(self) -> NDArray[np.bool_]:
+        """Return which geoms are visible."""
+        return self.all_seen == _SEEN
+
     def mask(self, *, without: Collection[int] = (), only: Collection[int] | None = None) -> Mask:
         """
         Return which geoms rays shall meet: of those that are visible some.

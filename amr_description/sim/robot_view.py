@@ -76,7 +76,8 @@ class RobotView:
         """Those of mecanum and omni wheels, by geom."""
         self.collisions = model.collisions
         """Which collision each geom of a link is; see :attr:`RobotSpec.collisions`."""
-        self._spawn_pose = pose
+        self.spawn_pose = pose
+        """Where it was spawned: transform from its root link to the world."""
         self._log = log
         self._engine = engine
         self._ray_scene = ray_scene
@@ -115,7 +116,7 @@ class RobotView:
         """Return the transform from a link to the world, now. Raises SimulationError."""
         body = self.body(link)
         if body == 0:
-            return self._spawn_pose
+            return self.spawn_pose
         self._engine.refresh_kinematics()
         data = self._engine.data
         x, y, z = data.xpos[body].tolist()

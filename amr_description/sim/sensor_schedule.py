@@ -8,11 +8,10 @@ measure at the same instants, and with the same noise; a reset begins both anew.
 """
 
 from collections.abc import Sequence
-import math
 
 import numpy as np
 
-from amr_description.clock import NANOSECONDS
+from amr_description.clock import instants_until
 
 
 class SensorSchedule:
@@ -28,7 +27,7 @@ class SensorSchedule:
         """
         self._rate = rate
         self._latest = time
-        self._count = self._instants_until(time)
+        self._count = instants_until(time, rate)
 
     def is_due(self, time: int) -> bool:
         """Whether to measure at ``time``, ns; to be asked once in every cycle, in order."""
@@ -37,12 +36,8 @@ class SensorSchedule:
             return False
         if self._rate <= 0.0:
             return True
-        before, self._count = self._count, self._instants_until(time)
+        before, self._count = self._count, instants_until(time, self._rate)
         return time < latest or self._count != before
-
-    def _instants_until(self, time: int) -> int:
-        # Of 15 Hz the third is at 0.2 s: no error of rounding may put it into the next cycle.
-        return math.floor(time / NANOSECONDS * self._rate + 1e-6)
 
 
 class CycleBudget:

@@ -8,6 +8,7 @@ tree: 16 × 900 rays into a field of 200 × 200 took 324 ms, into the mesh of th
 with hits that differ by less than 3 µm. A mesh is made once for each field: 0.1 s, and 10 MB.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import mujoco
@@ -42,22 +43,21 @@ def terrains(model: mujoco.MjModel) -> tuple[Terrain, ...]:
     return tuple(Terrain(model, int(geom)) for geom in small)
 
 
-@lru_cache(maxsize=4)  # robots that come and go leave the ground as it is
-def _mesh_model(
-    rows: int, columns: int, size: tuple[float, ...], heights: bytes
-) -> mujoco.MjModel:
+def field_mesh(
+    rows: int, columns: int, size: Sequence[float], heights: NDArray[np.float32]
+) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     """
-    Return a model of nothing but a mesh: surface, sides and bottom of a height field.
+    Return surface, sides and bottom of a height field as vertices (n, 3), m, and triangles (m, 3).
 
     Args:
         rows: Along y.
         columns: Along x.
         size: Half extents along x and y, height of an elevation of 1, depth of the base, m.
-        heights: Elevations, float32, row by row.
+        heights: Elevations, row by row.
     """
     half_x, half_y, top, base = size
     x, y = np.meshgrid(np.linspace(-half_x, half_x, columns), np.linspace(-half_y, half_y, rows))
-    z = np.frombuffer(heights, np.float32).reshape(rows, columns).astype(np.float64) * top
+    z = heights.reshape(rows, columns).astype(np.float64) * top
     surface = np.stack((x, y, z), axis=-1).reshape(-1, 3)
     at = np.arange(rows * columns).reshape(rows, columns)
     # Two triangles a cell, cut along the same diagonal as MuJoCo does.
@@ -70,11 +70,26 @@ def _mesh_model(
     faces += [_triangles(rim, below, after_below), _triangles(rim, after_below, after)]
     corners = below[[0, columns - 1, columns + rows - 2, 2 * columns + rows - 3]]
     faces += [corners[None, [0, 2, 1]], corners[None, [0, 3, 2]]]
+    return np.concatenate((surface, skirt)), np.concatenate(faces)
+
+
+@lru_cache(maxsize=4)  # robots that come and go leave the ground as it is
+def _mesh_model(
+    rows: int, columns: int, size: tuple[float, ...], heights: bytes
+) -> mujoco.MjModel:
+    """
+    Return a model of nothing but a mesh: a height field.
+
+    Args:
+        rows, columns, size: As of :func:`field_mesh`.
+        heights: Elevations, float32, row by row.
+    """
+    vertices, faces = field_mesh(rows, columns, size, np.frombuffer(heights, np.float32))
     spec = mujoco.MjSpec()
     mesh = spec.add_mesh(
         name='terrain',
-        uservert=np.concatenate((surface, skirt)).ravel(),
-        userface=np.concatenate(faces).ravel(),
+        uservert=vertices.ravel(),
+        userface=faces.ravel(),
     )
     mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
     kind = mujoco.mjtGeom.mjGEOM_MESH

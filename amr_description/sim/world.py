@@ -14,7 +14,8 @@ The simulated world: a ground, robots that come and go, and time.
     robot.pose('base_footprint')
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 
 import mujoco
 import numpy as np
@@ -40,6 +41,8 @@ from amr_description.sim.spawning import (
 from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings, WHEEL_CONTACT
 from amr_description.sim.wheel_trim import Contacts, trimmed_contacts
 from amr_description.sim.world_file import load_world, longest_step, static_surfaces, WorldSettings
+from amr_description.sim.wrenches import Wrenches
+from amr_description.text import quote_all
 
 AT_ORIGIN = Transform()
 _FILE_SETTINGS = WorldSettings()
@@ -82,16 +85,11 @@ class MujocoWorld:
             SimulationError: There is no such world, or MuJoCo rejects it.
         """
         collect_mujoco_warnings()
-        with compiler_warnings(log, f"world '{world}'"):
-            spec = load_world(world, settings)
+        self._log = log
+        self._settings = settings
+        spec = self._read(world)
         self.longest_step = longest_step(spec, settings)
         """The longest physics step that settings and file allow, ns."""
-        if self.longest_step > LONGEST_STEP:
-            log(
-                Severity.WARN,
-                f"world '{world}': a physics step of {self.longest_step / 1e6:g} ms is asked; "
-                f"the wheels' contacts are tuned for {LONGEST_STEP / 1e6:g} ms and less",
-            )
         self._surfaces = static_surfaces(spec)
         self._contact = contact
         self._seed = seed
@@ -100,20 +98,52 @@ class MujocoWorld:
         # MuJoCo keeps every spec that was ever attached, 0.1 MB each: so there is one for each
         # description, and it is copied into the world for each robot of it.
         self._specs: dict[str, mujoco.MjSpec] = {}
-        spec.copy_during_attach = True
-        try:
-            with compiler_warnings(log, f"world '{world}'"):
-                self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
-                """Model and data, for this package and its tests."""
-        except ValueError as cause:
-            raise SimulationError(f"world '{world}': {compiler_message(str(cause))}") from cause
-        self._log = log
+        with _compiling(world, log):
+            self.engine = Engine(spec, self.longest_step if timestep is None else timestep)
+            """Model and data, for this package and its tests."""
         self.faults = FaultMonitor(self.engine, log)
         """Checks the state after every step; its ``on_fault`` may be set."""
         self._robots: dict[str, RobotView] = {}
         self._roots: tuple[tuple[str, int], ...] = ()
         self._on_wheels: frozenset[str] = frozenset()
         self._ray_scene: tuple[int, RayScene] | None = None
+        self.wrenches = Wrenches(self.engine, lambda robot, link: self.robot(robot).body(link))
+        """From outside; they end with their robot, and with a reset."""
+
+    def load(self, world: str) -> None:
+        """
+        Load another world in the place of this one, which no robot is in any more; at time 0.
+
+        Args:
+            world: As at the start.
+
+        Raises:
+            SimulationError: There is no such world, MuJoCo rejects it, or a robot is in this one;
+                nothing has changed.
+        """
+        if self._robots:
+            raise SimulationError(f'{quote_all(self.names)}: still in the world; delete first')
+        spec = self._read(world)
+        longest = longest_step(spec, self._settings)
+        with _compiling(world, self._log):
+            self.engine.load(spec, longest)
+        self.longest_step, self._surfaces = longest, static_surfaces(spec)
+        self._contacts.clear()  # gravity may be another
+        self.faults.reset()
+
+    def _read(self, world: str) -> mujoco.MjSpec:
+        """Read the file of a world. Raises SimulationError."""
+        with compiler_warnings(self._log, f"world '{world}'"):
+            spec = load_world(world, self._settings)
+        spec.copy_during_attach = True
+        step = longest_step(spec, self._settings)
+        if step > LONGEST_STEP:
+            self._log(
+                Severity.WARN,
+                f"world '{world}': a physics step of {step / 1e6:g} ms is asked; the wheels' "
+                f'contacts are tuned for {LONGEST_STEP / 1e6:g} ms and less',
+            )
+        return spec
 
     @property
     def time(self) -> int:
@@ -212,13 +242,17 @@ class MujocoWorld:
     def remove(self, name: str) -> None:
         """Remove a robot; its view becomes invalid. Raises SimulationError for an unknown name."""
         self.robot(name)
+        self.wrenches.clear(name)
         self._detach(name)
         del self._robots[name]
         self._index_roots()
 
     def step(self, count: int = 1) -> None:
         """Advance by ``count`` physics steps, then check for faults."""
-        self.engine.step(count)
+        if self.wrenches:
+            self.wrenches.step(count)
+        else:
+            self.engine.step(count)
         self.faults.check(self._roots, self._on_wheels)
 
     def advance(self, period: int) -> None:
@@ -241,6 +275,7 @@ class MujocoWorld:
     def reset(self) -> None:
         """Set the time to 0 and every robot to where it was spawned, its joints held."""
         self.engine.reset()
+        self.wrenches.clear_all()
         for view in self._robots.values():
             view.start()
         self.faults.reset()
@@ -304,3 +339,13 @@ class MujocoWorld:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
         self._roots = tuple((name, index) for name, index in heights if index is not None)
         self._on_wheels = frozenset(name for name, view in self._robots.items() if view.wheels)
+
+
+@contextmanager
+def _compiling(world: str, log: Log) -> Iterator[None]:
+    """Log MuJoCo's warnings; make its ValueError a SimulationError that names the world."""
+    try:
+        with compiler_warnings(log, f"world '{world}'"):
+            yield
+    except ValueError as cause:
+        raise SimulationError(f"world '{world}': {compiler_message(str(cause))}") from cause

@@ -14,6 +14,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``simulation_services.py``  state, steps, reset, world
 ``spawn_services.py``       spawn, delete, list spawnables
 ``entity_services.py``      states, info and bounds of entities; filters
+``wrench_topics.py``        ``~/wrench``: pushes from outside
 ``posix_regex.py``          the regular expressions of these filters
 
 ``names.py``                names of its topics and frames

@@ -344,6 +344,8 @@ class EntityManager:
         host = ros2_control_host_of(robot)
         rules = [word for rule in host.remappings for word in ('-r', rule)]
         arguments = [*self._ros_args, *rules]
+        if namespace.strip('/'):  # several managers publish on one /diagnostics
+            arguments += ['-p', 'diagnostic_updater.use_fqn:=true']
         if len(hardware) > len(robot.plugin_hardware) or self._controllers:
             arguments += self._parameter_files(robot)
         else:  # Gazebo's plugins are all that it has

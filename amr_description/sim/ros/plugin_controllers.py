@@ -66,7 +66,7 @@ def node_arguments(controller: PluginController, namespace: str, update_rate: in
     arguments = []
     for name, value in controller.parameters.items():
         given = min(value, update_rate) if name == 'update_rate' else value
-        if name == 'frame_id' and 'sensor_name' in controller.parameters:
+        if name in controller.frames:
             given = frame_in(namespace, value)
         arguments += ['-p', f'{name}:={json.dumps(given)}']
     for before, after in controller.names_of_topics(namespace).items():

@@ -15,7 +15,7 @@ QUITTING  the process ends
 ========  ===========================================================================
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import enum
 
@@ -139,6 +139,11 @@ class Simulation:
     The coroutines run on the ROS thread and await the control thread.
     """
 
+    world_name: str
+    """Of the present world: a shipped name, or a path."""
+    on_world: Callable[[], None] | None = None
+    """Called when there is another world."""
+
     def __init__(
         self,
         node: Node,
@@ -168,7 +173,7 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             publisher = ClockedLoopPublisher(node)
             publisher.adopt(node)
-            self.world = _world_of(parameters, self.log)
+            self.world, self.world_name = _world_of(parameters, self.log), parameters.world
             ground_truth = GroundTruth(node, publisher, self.world, parameters.ground_truth_rate)
             calls = CallQueue(PAUSED_CLOCK_PERIOD)
             self._pacer = WallPacer(parameters.real_time_factor, calls)
@@ -278,6 +283,19 @@ class Simulation:
         await self.entities.remove_all()
         await self.reset()
         self._is_stopped = True
+
+    async def load_world(self, world: str) -> None:
+        """
+        Stop, and load a world in the place of the present one. Raises SimulationError.
+
+        The file is read first, so that the present world and its robots stay where it is no world.
+        """
+        await self.loop_thread.submit(lambda: MujocoWorld(world, settings=self.parameters.physics))
+        await self.stop()
+        await self.loop_thread.submit(lambda: self.world.load(world))
+        self.world_name = world
+        if self.on_world is not None:
+            self.on_world()
 
     async def quit(self) -> None:
         """Stop, and end the process."""

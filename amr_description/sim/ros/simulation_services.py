@@ -11,8 +11,9 @@ What the standard leaves to the simulator:
   stepped once it is paused.
 - SCOPE_DEFAULT is SCOPE_ALL, which removes the spawned robots. SCOPE_TIME + SCOPE_STATE (3) keeps
   them with their controllers, at their spawn poses and time 0.
-- The world is chosen at the start by the parameter ``world``. Services that would need more than
-  that reply ``RESULT_FEATURE_UNSUPPORTED``, with the reason.
+- The named poses are those at which entities were spawned, under their names.
+- A world can be loaded, from a file, but not unloaded: there always is one. What is not there
+  replies ``RESULT_FEATURE_UNSUPPORTED``, with the reason.
 """
 
 from collections.abc import Awaitable, Callable, Sequence
@@ -24,7 +25,7 @@ from rclpy.action.server import ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from simulation_interfaces.action import SimulateSteps
-from simulation_interfaces.msg import Result, SimulatorFeatures, WorldResource
+from simulation_interfaces.msg import NamedPose, Result, SimulatorFeatures, WorldResource
 from simulation_interfaces.srv import (
     GetAvailableWorlds,
     GetCurrentWorld,
@@ -42,6 +43,8 @@ from simulation_interfaces.srv import (
 from amr_description.ament_index import resolve_uri
 from amr_description.control.contracts import Severity
 from amr_description.errors import RequestError, ResourceError, SimulationError
+from amr_description.model.frames import Transform
+from amr_description.ros.messages import fill_pose
 from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
@@ -49,6 +52,8 @@ from amr_description.sim.ros.simulation import Simulation, SimulationState
 from amr_description.sim.world_file import shipped_worlds, world_path
 
 FEATURES = (
+    SimulatorFeatures.NAMED_POSES,
+    SimulatorFeatures.WORLD_LOADING,
     SimulatorFeatures.SIMULATION_RESET,
     SimulatorFeatures.SIMULATION_RESET_TIME,
     SimulatorFeatures.SIMULATION_RESET_STATE,
@@ -63,6 +68,8 @@ FEATURES = (
     SimulatorFeatures.AVAILABLE_WORLDS,
 )
 """What these services support."""
+_SPAWN_TAG = 'spawn'
+"""Of the named poses at which entities were spawned."""
 
 _TIME, _STATE = ResetSimulation.Request.SCOPE_TIME, ResetSimulation.Request.SCOPE_STATE
 _SPAWNED, _ALL = ResetSimulation.Request.SCOPE_SPAWNED, ResetSimulation.Request.SCOPE_ALL
@@ -236,7 +243,7 @@ class WorldServices:
     """The present world and the available ones; the rest is unsupported."""
 
     def __init__(self, node: Node, simulation: Simulation) -> None:
-        self._world = simulation.parameters.world
+        self._simulation = simulation
         create_services(
             node,
             simulation.log,
@@ -253,7 +260,7 @@ class WorldServices:
     async def _get_current_world(
         self, _: GetCurrentWorld.Request, response: GetCurrentWorld.Response
     ) -> None:
-        response.world = _resource(world_path(self._world))
+        response.world = _resource(world_path(self._simulation.world_name))
 
     async def _get_available_worlds(
         self, request: GetAvailableWorlds.Request, response: GetAvailableWorlds.Response
@@ -272,20 +279,50 @@ class WorldServices:
         if has_tags((), request.filter):
             response.worlds = [_resource(path) for path in paths]
 
-    async def _load_world(self, _: LoadWorld.Request, __: LoadWorld.Response) -> None:
-        raise _unsupported(
-            'a world is chosen at the start: ros2 run amr_description mujoco_sim --ros-args -p '
-            'world:=…'
-        )
+    async def _load_world(self, request: LoadWorld.Request, response: LoadWorld.Response) -> None:
+        """Remove all entities, and leave the new world STOPPED, as the standard asks."""
+        if not request.uri:
+            if request.resource_string:
+                raise RequestError(
+                    'a world is loaded from a file; write it to one, and give its uri',
+                    response.UNSUPPORTED_FORMAT,
+                )
+            raise RequestError('uri is empty; file:// or a path will do', response.NO_RESOURCE)
+        try:
+            path = world_path(_file_of(request.uri))
+            await self._simulation.load_world(str(path))
+        except (ResourceError, SimulationError) as error:
+            raise RequestError(str(error), response.RESOURCE_PARSE_ERROR) from error
+        response.world = _resource(path)
 
     async def _unload_world(self, _: UnloadWorld.Request, __: UnloadWorld.Response) -> None:
         raise _unsupported('the world stays as long as the simulator')
 
-    async def _get_named_poses(self, _: GetNamedPoses.Request, __: Any) -> None:
-        raise _unsupported('worlds have no named poses here')
+    async def _get_named_poses(
+        self, request: GetNamedPoses.Request, response: GetNamedPoses.Response
+    ) -> None:
+        """List where the entities were spawned, by name; ``~/set_entity_state`` takes it."""
+        if not has_tags((_SPAWN_TAG,), request.tags):
+            return
+        world = self._simulation.world
+
+        def read() -> dict[str, Transform]:
+            return {name: world.robot(name).spawn_pose for name in world.names}
+
+        for name, pose in (await self._simulation.loop_thread.submit(read)).items():
+            named = NamedPose(
+                name=name, description=f"where '{name}' was spawned", tags=[_SPAWN_TAG]
+            )
+            fill_pose(pose, named.pose)
+            response.poses.append(named)
 
     async def _get_named_pose_bounds(self, _: GetNamedPoseBounds.Request, __: Any) -> None:
-        raise _unsupported('worlds have no named poses here')
+        raise _unsupported('named poses have no bounds here')
+
+
+def _file_of(uri: str) -> str:
+    """Return the path of a URI, or the name of a shipped world as it is. Raises ResourceError."""
+    return uri if uri in shipped_worlds() else str(resolve_uri(uri))
 
 
 def _worlds_in(source: str) -> list[Path]:

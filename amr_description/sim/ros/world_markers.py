@@ -43,10 +43,16 @@ _TYPES = {
 }
 
 
-def publish_world(node: Node, world: MujocoWorld) -> None:
-    """Publish the static geometry of a world without robots, once and latched."""
-    publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
-    publisher.publish(markers(visible_shapes(world.engine.spec)))
+class WorldPublisher:
+    """Publishes the static geometry, latched."""
+
+    def __init__(self, node: Node, world: MujocoWorld) -> None:
+        self._publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
+        self._world = world
+
+    def publish(self) -> None:
+        """Publish it now; no robot is in the world."""
+        self._publisher.publish(markers(visible_shapes(self._world.engine.spec)))
 
 
 def markers(shapes: Sequence[VisibleShape]) -> MarkerArray:

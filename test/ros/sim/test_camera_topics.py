@@ -3,6 +3,7 @@
 """The topics of a camera over DDS, of a world that is stepped by hand."""
 
 from contextlib import contextmanager
+from dataclasses import replace
 import threading
 
 from fixtures.sim.driving import AMR
@@ -21,6 +22,7 @@ from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Camera, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
+from amr_description.sim.cameras.renderer import Picture
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 
@@ -58,6 +60,12 @@ class Host:
     def spawn(self, *cameras, namespace='/'):
         self.world.spawn('amr', AMR, Transform())
         self.sensors.add('amr', namespace, cameras)
+
+    @property
+    def task(self):
+        """What the first camera asks for measurements."""
+        ((_, camera), *_) = self.sensors._robots['amr']  # noqa: SLF001
+        return camera._task  # noqa: SLF001
 
     def turn(self, count=1):
         for _ in range(count):
@@ -168,6 +176,27 @@ def test_while_time_waits_each_measurement_is_made_and_two_runs_are_equal(host):
     assert len({*runs[0].values()}) == 8  # the noise differs
 
 
+def test_cameras_of_one_name_on_two_links_have_noise_of_their_own(host):
+    scene = Camera(SensorMount('eye', 'base_link', rate=20.0), 64, 48, 1.2, noise=CAMERA.noise)
+    links = ('base_link', 'wheel_front_left')
+    host.spawn(
+        *(
+            replace(scene, mount=replace(scene.mount, link=link), image_topic=f'{link}/image')
+            for link in links
+        )
+    )
+    picture = Picture(np.full((48, 64, 3), 100, np.uint8), None)
+    host.sensors._equipment.renderer.render = lambda _: picture  # noqa: SLF001
+    with (
+        host.heard(Image, f'/{links[0]}/image') as first,
+        host.heard(Image, f'/{links[1]}/image') as second,
+    ):
+        host.turn(11)
+        host.wait(lambda: first and second)
+    assert stamp_of(first[0]) == stamp_of(second[0])
+    assert (pixels(first[0]) != pixels(second[0])).any()
+
+
 def test_a_stop_does_not_wait_for_a_picture_that_time_waits_for(host):
     host.spawn(CAMERA)
     begun, go_on = threading.Event(), threading.Event()
@@ -198,7 +227,8 @@ def test_while_cycles_are_paced_none_waits_for_a_picture(host):
     renderer.render = slow
     with host.heard(Image, '/camera/image') as images:
         host.turn(6)
-        host.wait(lambda: images)
+        # A picture is heard a moment before its measurement is over.
+        host.wait(lambda: images and not host.task.is_busy)
         host.turn(5)
         assert begun.wait(PATIENCE)
         host.turn(20)  # four more are due

@@ -14,7 +14,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.model.frames import rotate
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.ros.world_markers import INFINITE_WIDTH, LATCHED, markers, publish_world
+from amr_description.sim.ros.world_markers import INFINITE_WIDTH, LATCHED, markers, WorldPublisher
 from amr_description.sim.static_geometry import ShapeKind, visible_shapes
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world, shipped_worlds
@@ -183,7 +183,7 @@ def test_a_late_subscriber_gets_the_world():
     rclpy.init(args=[])
     node = Node('surroundings_host')
     try:
-        publish_world(node, MujocoWorld('walls'))
+        WorldPublisher(node, MujocoWorld('walls')).publish()
         heard = []
         topic = '/surroundings_host/world'
         node.create_subscription(MarkerArray, topic, heard.append, LATCHED)

@@ -68,9 +68,14 @@ class Listener:
 
     def __enter__(self):
         """Wait until the simulator knows who hears it, and no message is under way."""
+        self.sim.wait(
+            lambda: all(each.get_publisher_count() for each in self._subscriptions), 'publishers'
+        )
+        steps = 0
         while not all(self.heard[topic] for topic in self.types):
-            self.sim.run(0.1)
-            self.sim.wait(lambda: self.heard['/imu'], 'the IMU')
+            self.sim.run(0.1)  # who publishes may know of us later: what was missed comes again
+            steps += 1
+            assert steps < 300, {topic: len(self.heard[topic]) for topic in self.types}
         self.begin()
         return self
 

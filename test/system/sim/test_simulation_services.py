@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The services of simulation_interfaces, asked of a simulator that began paused."""
 
+import math
+
 from action_msgs.msg import GoalStatus
 from geometry_msgs.msg import Point, Pose, PoseStamped, Vector3
 import pytest
+from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
+from ros_gz_interfaces.msg import Entity, EntityWrench
 from simulation_interfaces.action import SimulateSteps
 from simulation_interfaces.msg import (
     Bounds,
@@ -47,8 +51,11 @@ from simulation_interfaces.srv import (
 )
 from support.ros_processes import PATIENCE, running
 from support.simulator import SIMULATOR, simulator, URDF
+from visualization_msgs.msg import MarkerArray
 
-from amr_description.ros.service_calls import call
+from amr_description.clock import NANOSECONDS
+from amr_description.ros.qos import LATCHED
+from amr_description.ros.service_calls import call, wait_until
 
 STEP = 2_000_000  # ns, of the physics
 S = SimulationState
@@ -98,6 +105,126 @@ def height(sim, name='ball'):
     return sim.do(GetEntityState, entity=name).state.pose.position.z
 
 
+def test_an_entity_goes_back_to_where_it_was_spawned(sim):
+    spawn_ball(sim, 'other', z=3.0)
+    spawn_ball(sim, z=2.0)
+    turn(sim, S.STATE_PLAYING)
+    sim.wait(lambda: height(sim) < 1.9)
+    turn(sim, S.STATE_PAUSED)
+    poses = {each.name: each for each in sim.do(GetNamedPoses).poses}
+    assert set(poses) == {'other', 'ball'}
+    assert list(poses['ball'].tags) == ['spawn']
+    back = EntityState(pose=poses['ball'].pose)
+    sim.do(SetEntityState, entity='ball', state=back)
+    assert height(sim) == 2.0
+    assert height(sim, 'other') < 3.0
+    assert sim.do(GetNamedPoses, tags=TagsFilter(tags=['dock'])).poses == []
+
+
+def test_a_link_is_pushed_by_topics(sim):
+    def moved(steps):
+        sim.do(StepSimulation, steps=steps)
+        return sim.do(GetEntityState, entity='ball').state
+
+    spawn_ball(sim, z=100.0)
+    weight = EntityWrench(entity=Entity(name='ball::ball', type=Entity.LINK))
+    weight.wrench.force.z = 9.81  # its mass is 1 kg
+    wrench = sim.node.create_publisher(EntityWrench, f'{SIMULATOR}/wrench', 10)
+    held = sim.node.create_publisher(EntityWrench, f'{SIMULATOR}/wrench/persistent', 10)
+    clear = sim.node.create_publisher(Entity, f'{SIMULATOR}/wrench/clear', 10)
+    for each in (wrench, held, clear):
+        sim.wait(each.get_subscription_count)
+    held.publish(weight)
+    sim.wait(lambda: moved(1).acceleration.linear.z == pytest.approx(0.0, abs=1e-6))
+    assert moved(100).acceleration.linear.z == pytest.approx(0.0, abs=1e-6)
+    clear.publish(weight.entity)
+    sim.wait(lambda: moved(1).acceleration.linear.z == pytest.approx(-9.81))
+    push = EntityWrench(entity=Entity(name='ball', type=Entity.MODEL))
+    push.wrench.force.x = 100.0
+    wrench.publish(push)
+    sim.wait(lambda: moved(1).twist.linear.x > 0.0)
+    assert moved(10).twist.linear.x == pytest.approx(100.0 * STEP / NANOSECONDS)
+    for each in (wrench, held, clear):
+        sim.node.destroy_publisher(each)
+
+
+@pytest.mark.parametrize(
+    ('name', 'kind', 'force', 'text'),
+    [
+        ('nobody', Entity.MODEL, 1.0, "there is no robot 'nobody'; there are: ball"),
+        ('ball::arm', Entity.LINK, 1.0, "there is no link 'arm'"),
+        ('ball', Entity.LINK, 1.0, 'a link is named <robot>::<link>'),
+        ('ball', Entity.JOINT, 1.0, 'entity of type 7; MODEL (2), <robot>, and LINK (3)'),
+        ('ball', Entity.MODEL, math.nan, 'finite numbers are needed'),
+    ],
+)
+def test_what_cannot_be_pushed_is_a_line_of_the_log(sim, name, kind, force, text):
+    lines = []
+    logs = sim.node.create_subscription(Log, '/rosout', lambda each: lines.append(each.msg), 50)
+    spawn_ball(sim)
+    push = EntityWrench(entity=Entity(name=name, type=kind))
+    push.wrench.force.x = force
+    wrench = sim.node.create_publisher(EntityWrench, f'{SIMULATOR}/wrench', 10)
+    sim.wait(lambda: wrench.get_subscription_count() and logs.get_publisher_count())
+
+    def said():
+        wrench.publish(push)  # /rosout may be matched later than it is known
+        return any(text in line for line in lines)
+
+    wait_until(sim.node, lambda: said() or None, every=0.1, timeout=PATIENCE)
+    assert any(text in line for line in lines), lines
+    sim.node.destroy_publisher(wrench)
+    sim.node.destroy_subscription(logs)
+
+
+def test_another_world_is_loaded_without_entities_and_stopped(sim):
+    spawn_ball(sim)
+    worlds = {each.name: each for each in sim.do(GetAvailableWorlds).worlds}
+    marks = []
+    markers = sim.node.create_subscription(
+        MarkerArray, f'{SIMULATOR}/world', lambda each: marks.append(each), LATCHED
+    )
+    sim.wait(lambda: marks)
+    loaded = sim.do(LoadWorld, uri=worlds['walls'].world_resource.uri).world
+    assert loaded.name == sim.do(GetCurrentWorld).world.name == 'walls'
+    assert state(sim) == S.STATE_STOPPED
+    assert sim.do(GetEntities).entities == []
+    sim.wait(lambda: any(each.text == 'east' for each in marks[-1].markers))
+    spawn_ball(sim, z=0.1)  # on the ground of the new world
+    turn(sim, S.STATE_PAUSED)
+    sim.do(StepSimulation, steps=200)
+    assert height(sim) == pytest.approx(0.1, abs=0.01)
+    sim.do(LoadWorld, uri=worlds['empty'].world_resource.uri)
+    sim.wait(lambda: not any(each.text == 'east' for each in marks[-1].markers))
+    sim.node.destroy_subscription(markers)
+
+
+@pytest.mark.parametrize(
+    ('fields', 'code', 'text'),
+    [
+        ({}, LoadWorld.Response.NO_RESOURCE, 'uri is empty'),
+        ({'resource_string': '<mujoco/>'}, LoadWorld.Response.UNSUPPORTED_FORMAT, 'from a file'),
+        ({'uri': 'nowhere.xml'}, LoadWorld.Response.RESOURCE_PARSE_ERROR, 'neither a file nor'),
+    ],
+)
+def test_what_is_no_world_is_not_loaded_and_the_present_one_stays(sim, fields, code, text):
+    spawn_ball(sim)
+    found, reason = sim.refused(LoadWorld, **fields)
+    assert (found, text in reason) == (code, True), reason
+    assert sim.do(GetEntities).entities == ['ball']
+    assert sim.do(GetCurrentWorld).world.name == 'empty'
+
+
+def test_a_broken_world_is_not_loaded_either(sim, tmp_path):
+    spawn_ball(sim)
+    (tmp_path / 'broken.xml').write_text(
+        '<mujoco><worldbody><geom type="potato"/></worldbody></mujoco>'
+    )
+    code, reason = sim.refused(LoadWorld, uri=(tmp_path / 'broken.xml').as_uri())
+    assert (code, 'broken.xml' in reason) == (LoadWorld.Response.RESOURCE_PARSE_ERROR, True)
+    assert sim.do(GetEntities).entities == ['ball']
+
+
 # --- state and time ------------------------------------------------------------------------------
 
 
@@ -105,9 +232,7 @@ def test_the_features_are_those_that_are_served(sim):
     features = sim.ask(GetSimulatorFeatures).features
     f = SimulatorFeatures
     unsupported = {
-        f.NAMED_POSES: GetNamedPoses,
         f.POSE_BOUNDS: GetNamedPoseBounds,
-        f.WORLD_LOADING: LoadWorld,
         f.WORLD_UNLOADING: UnloadWorld,
     }
     lacking = {*unsupported, f.ENTITY_BOUNDS_CONVEX, f.WORLD_RESOURCE_STRING, f.WORLD_TAGS}

@@ -280,3 +280,27 @@ def test_joint_without_a_command_interface_takes_no_command(world):
     assert wheels.velocities() == [0.0] * 4
     with pytest.raises(SimulationError, match="'joint_wheel_front_left' takes no velocity comm"):
         wheels.command('velocity', [1.0] * 4)
+
+
+def test_another_world_takes_the_place_of_one_without_robots():
+    world = MujocoWorld('empty')
+    world.spawn('amr', AMR, Transform((0.0, 0.0, 0.05)))
+    with pytest.raises(SimulationError, match='"amr": still in the world; delete first'):
+        world.load('walls')
+    world.step(10)
+    world.remove('amr')
+    world.load('walls')
+    assert world.time == 0
+    fresh = MujocoWorld('walls')
+    for each in (world, fresh):
+        each.spawn('amr', AMR, Transform((0.0, 0.0, 0.05)))
+        each.step(300)
+    assert world.state() == fresh.state()
+
+
+def test_what_is_no_world_leaves_the_present_one_as_it_is():
+    world = MujocoWorld('walls')
+    before = world.engine.model
+    with pytest.raises(SimulationError, match="world 'nowhere'"):
+        world.load('nowhere')
+    assert world.engine.model is before

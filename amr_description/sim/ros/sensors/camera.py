@@ -130,7 +130,7 @@ class CameraTopics(SensorTopics):
         """Make a picture and publish it; on the thread of the worker."""
         camera = self._camera
         picture = self._context.renderer.render(shot)
-        generator = noise_generator(self._context.robot.seed, camera.mount.name, time)
+        generator = noise_generator(self._context.robot.seed, camera.mount.path, time)
         if not camera.image_topic:
             picture = with_noise(picture, camera.noise, generator)
         elif picture.color is not None:
@@ -161,7 +161,7 @@ class CameraTopics(SensorTopics):
 
 
 class _BulkTopic:
-    """A topic of big messages, which are published at once, by any thread; maybe none at all."""
+    """A topic of messages of the worker, which are published at once; maybe none at all."""
 
     def __init__(self, topic: LoopTopic | None, encode: Encode) -> None:
         self._topic, self._encode = topic, encode
@@ -176,7 +176,7 @@ class _BulkTopic:
         topic = self._topic
         if topic is not None and topic.is_heard:
             try:
-                topic.write(self._encode(time, data))
+                topic.write_aside(self._encode(time, data))
             except InvalidHandle:  # its robot has been removed meanwhile
                 topic.is_heard = False
 

@@ -49,7 +49,6 @@ class Equipment:
         self._loop_publisher = loop_publisher
         self._world = world
         self._log = log
-        self._is_paced = is_paced
         self._worker = SensorWorker(loop_publisher, log, is_paced)
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
@@ -66,7 +65,6 @@ class Equipment:
             self._world.robot(name),
             namespace,
             self._log,
-            self._is_paced,
             self._worker,
             self._states,
             self._scenes,

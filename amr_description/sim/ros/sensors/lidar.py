@@ -107,7 +107,7 @@ class LidarTopics(SensorTopics):
         for topic in self._topics:
             if topic.is_heard:
                 try:
-                    topic.write(scan)
+                    topic.write_aside(scan)
                 except InvalidHandle:  # its robot has been removed meanwhile
                     topic.is_heard = False
 

@@ -47,7 +47,7 @@ class SensorManager:
             loop_publisher: Publishes at the end of a cycle.
             world: The simulated world.
             log: Of the simulator.
-            is_paced: See :attr:`SensorContext.is_paced`.
+            is_paced: See :class:`~amr_description.sim.ros.sensors.worker.SensorWorker`.
             has_ticked: Whether the controllers have ticked at a time, ns. Sensors measure at
                 ticks, so that the odometry of their instant goes out before.
             camera_renderer: One of :data:`~amr_description.sim.cameras.CHOICES`.

@@ -3,7 +3,6 @@
 """The topics of one sensor of one robot: what each kind of sensor implements."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from rclpy.node import Node
@@ -33,12 +32,6 @@ class SensorContext:
     namespace: str
     """Of the robot, absolute: ``/`` or ``/robot1``."""
     log: Log
-    is_paced: Callable[[], bool]
-    """
-    Whether cycles wait for the wall clock, so that the control thread must not wait for a
-    measurement that another thread makes. While it is False (real-time factor 0, or in a step)
-    time has to wait for measurements, which are all made.
-    """
     worker: SensorWorker
     """Makes measurements that take long, on its thread."""
     states: StateCopier
@@ -78,7 +71,7 @@ class SensorTopics(ABC):
         Measure, and publish.
 
         What takes long is done by another thread, from a copy of the state of this instant, with
-        this stamp; see :attr:`SensorContext.is_paced`.
+        this stamp; see :class:`SensorWorker`.
 
         Args:
             time: Of this cycle, ns.

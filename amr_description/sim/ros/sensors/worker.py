@@ -5,9 +5,9 @@ The thread that measures what takes long: cameras, and lidars of many rays.
 
 A sensor asks for a measurement while the control thread reports a cycle; the measurement begins
 when all of that cycle is published, so that nothing overtakes ``/clock`` and the transforms of its
-instant. As long as cycles wait for the wall clock (:attr:`SensorContext.is_paced`) the control
-thread goes on meanwhile, and a measurement that is asked for while the one before is not done is
-left out, which is logged. Else it waits, and none is left out.
+instant. As long as cycles wait for the wall clock (``is_paced``) the control thread goes on
+meanwhile, and a measurement that is asked for while the one before is not done is left out, which
+is logged. Else it waits, and none is left out.
 """
 
 from collections import deque
@@ -18,6 +18,7 @@ import time as wall
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.plugin_errors import describe, log_traceback
 from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.control.ros.realtime import set_time_slice, USUAL_SLICE
 
 _LOG_PERIOD = 10.0
 """s between two lines of a sensor whose measurements are left out."""
@@ -44,7 +45,9 @@ class SensorWorker:
         Args:
             loop_publisher: Tells when a cycle is published.
             log: Of the simulator.
-            is_paced: See :attr:`SensorContext.is_paced`.
+            is_paced: Whether cycles wait for the wall clock, so that the control thread must not
+                wait for a measurement. While it is False (real-time factor 0, or in a step) time
+                has to wait for measurements, which are all made.
         """
         self.log = log
         self.is_paced = is_paced
@@ -123,6 +126,7 @@ class SensorWorker:
                 self.wait_for(task)
 
     def _run(self) -> None:
+        set_time_slice(USUAL_SLICE)  # the control thread, which starts this one, goes first
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._queue)
