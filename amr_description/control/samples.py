@@ -26,6 +26,13 @@ class TwistSample:
 
 
 @dataclass(frozen=True, slots=True)
+class FlagSample:
+    """A std_msgs/Bool."""
+
+    value: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Frames:
     """The constant part of an odometry message: frames, and variances of six axes."""
 

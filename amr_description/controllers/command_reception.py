@@ -55,6 +55,12 @@ class CommandReception:
         self._twist: Twist | None = None
         self._is_driving = False
 
+    def discard(self, ports: Iterable[Input[Any]], time: int) -> None:
+        """Drop the command, and those that wait, at ``time``: an emergency stop is engaged."""
+        for port in ports:
+            port.drain()
+        self.forget(time)
+
     def receive(self, samples: Iterable[TwistSample], now: int) -> None:
         """Take commands, oldest first; ``now``: the time that the sender's clock can show."""
         for sample in samples:

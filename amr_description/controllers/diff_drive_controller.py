@@ -19,10 +19,12 @@ Differences from diff_drive_controller 4.x:
 - an infinite wheel state is an error as NaN is, instead of making the pose NaN forever;
 - commands on topics that arrive in chained mode, where they are ignored, are warned of.
 
-Additions, off by default:
+Additions, off by default or, the lock, until somebody publishes:
 
 - ``enable_cmd_vel_unstamped``: plain ``geometry_msgs/msg/Twist`` on ``~/cmd_vel_unstamped``,
   besides the stamped ones; of two that arrive within one period, the unstamped one counts;
+- the lock ``emergency_stop`` (always subscribed), see
+  :class:`~amr_description.controllers.drive_ports.EmergencyStop`;
 - ``preserve_curvature``: a limited command keeps its arc, see
   :mod:`amr_description.controllers.rate_limiter`.
 """
@@ -53,6 +55,7 @@ from amr_description.control.samples import Frames, TwistSample
 from amr_description.controllers.command_reception import CommandReception, ignore_commands
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters, SpeedLimits
 from amr_description.controllers.drive_ports import (
+    EmergencyStop,
     odometry_outputs,
     STAMPED_TWIST,
     stamped_twist_input,
@@ -120,10 +123,10 @@ class DiffDriveController(Controller):
         """Return ``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
         return self._linear, self._angular
 
-    def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """Return ``~/cmd_vel`` and, if enabled, ``~/cmd_vel_unstamped``."""
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """Return ``~/cmd_vel``, if enabled ``~/cmd_vel_unstamped``, and the lock."""
         optional = (self._unstamped,) if self._parameters.enable_cmd_vel_unstamped else ()
-        return (self._command, *optional)
+        return (self._command, *optional, self._emergency_stop)
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odom``, ``/tf`` and, if enabled, ``~/cmd_vel_out``."""
@@ -188,6 +191,10 @@ class DiffDriveController(Controller):
 
     def _update_references(self, time: int, period: int) -> None:
         """Take the command of the topics; in chained mode the preceding controller sets it."""
+        if self._emergency_stop.is_engaged:
+            self._reception.discard(self.inputs(), time)
+            self._set_references(0.0, 0.0)
+            return
         if self.is_chained:
             ignore_commands(self.inputs(), self.log)
             return
@@ -249,6 +256,7 @@ class DiffDriveController(Controller):
             parameters.pose_covariance_diagonal,
             parameters.twist_covariance_diagonal,
         )
+        self._emergency_stop = EmergencyStop(self.log)
         self._command = stamped_twist_input()
         self._unstamped: Input[TwistSample] = Input(
             Port('~/cmd_vel_unstamped', _UNSTAMPED, sample=TwistSample)

@@ -2,12 +2,54 @@
 # SPDX-License-Identifier: Apache-2.0
 """The topics that controllers of wheeled robots share."""
 
-from amr_description.control.contracts import Controller, Input, Output, Port, Qos, Severity
-from amr_description.control.samples import OdometrySample, TwistSample
+from amr_description.control.contracts import Controller, Input, Log, Output, Port, Qos, Severity
+from amr_description.control.samples import FlagSample, OdometrySample, TwistSample
 
 STAMPED_TWIST = 'geometry_msgs/msg/TwistStamped'
 REFERENCE_QOS = Qos(depth=1, reliability='best_effort')
 """Of ``~/reference``."""
+
+
+EMERGENCY_STOP = 'emergency_stop'
+"""Topic of the lock, in the namespace of the robot."""
+
+
+class EmergencyStop(Input[FlagSample]):
+    """
+    The lock of a drive: while the latest message on ``emergency_stop`` is true, it stands.
+
+    Such locks are those of ``twist_mux``. The genuine controllers have none. A message counts also
+    while the controller is inactive: activating it again does not release the robot.
+    """
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(
+            Port(
+                EMERGENCY_STOP,
+                'std_msgs/msg/Bool',
+                '',
+                Qos(depth=1, reliability='reliable'),
+                FlagSample,
+            ),
+            capacity=1,
+        )
+        self._log = log
+        self.is_engaged = False
+        """Written on the ROS thread: all that an update reads of it."""
+
+    def put(self, sample: FlagSample) -> bool:
+        """Take the state of the lock, whatever the controller's is."""
+        was_engaged, self.is_engaged = self.is_engaged, sample.value
+        if was_engaged != sample.value:
+            name = self.port.name
+            text = (
+                f"'{name}' is true: the robot is held at rest, and commands are not taken, until "
+                'it is false'
+                if sample.value
+                else f"'{name}' is false: commands are taken again"
+            )
+            self._log(Severity.WARN, text)
+        return True
 
 
 def stamped_twist_input() -> Input[TwistSample]:

@@ -57,9 +57,9 @@ class GazeboDiffDrive(DiffDriveController):
     parameters_type = GazeboDiffDriveParameters
     _parameters: GazeboDiffDriveParameters
 
-    def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """Return ``~/cmd_vel``."""
-        return (self._unstamped,)
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """Return ``~/cmd_vel`` and the lock."""
+        return self._unstamped, self._emergency_stop
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return those of ``~/odom``, ``/tf`` and ``~/cmd_vel_out`` that are wanted."""

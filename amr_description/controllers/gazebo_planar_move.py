@@ -11,10 +11,12 @@ Its command interfaces are those of :mod:`amr_description.hardware.simulated_bas
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
+from typing import Any
 
 from amr_description.control.contracts import Controller, Input, Port, Severity
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, StateInterface
 from amr_description.control.samples import TwistSample
+from amr_description.controllers.drive_ports import EmergencyStop
 from amr_description.model.base_interfaces import BASE, COMMAND_AXES
 from amr_description.parameters import parameter
 
@@ -37,6 +39,7 @@ class GazeboPlanarMove(Controller):
             f'{parameters.base_name}/{axis}' for axis in COMMAND_AXES
         )
         self._commands: Sequence[CommandInterface] = ()
+        self._emergency_stop = EmergencyStop(self.log)
         self._command: Input[TwistSample] = Input(
             Port('~/cmd_vel', 'geometry_msgs/msg/Twist', sample=TwistSample)
         )
@@ -45,9 +48,9 @@ class GazeboPlanarMove(Controller):
         """Return the velocities of the base: along x and y, about z."""
         return self._request
 
-    def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """Return ``~/cmd_vel``."""
-        return (self._command,)
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """Return ``~/cmd_vel`` and the lock."""
+        return self._command, self._emergency_stop
 
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
@@ -59,6 +62,10 @@ class GazeboPlanarMove(Controller):
 
     def update(self, time: int, period: int) -> None:
         """Take the latest command."""
+        if self._emergency_stop.is_engaged:
+            self._command.drain()
+            self._move(0.0, 0.0, 0.0)
+            return
         for sample in self._command.drain()[-1:]:
             twist = sample.linear, sample.lateral, sample.angular
             if all(map(math.isfinite, twist)):

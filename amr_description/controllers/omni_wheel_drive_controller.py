@@ -30,7 +30,7 @@ from amr_description.control.interfaces import (
     StateInterface,
     VELOCITY,
 )
-from amr_description.control.samples import Frames, TwistSample
+from amr_description.control.samples import Frames
 from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import (
     CommandReception,
@@ -38,7 +38,11 @@ from amr_description.controllers.command_reception import (
     ignore_commands,
 )
 from amr_description.controllers.diff_drive_parameters import LENGTH, tf_prefix
-from amr_description.controllers.drive_ports import odometry_outputs, stamped_twist_input
+from amr_description.controllers.drive_ports import (
+    EmergencyStop,
+    odometry_outputs,
+    stamped_twist_input,
+)
 from amr_description.controllers.holonomic_odometry import HolonomicOdometry
 from amr_description.controllers.odometry import LEAST_PERIOD
 from amr_description.errors import ControllerError
@@ -204,9 +208,9 @@ class OmniWheelDriveController(Controller):
         """Return ``linear/x``, ``linear/y`` (m/s) and ``angular/z`` (rad/s), all ``/velocity``."""
         return self._references
 
-    def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """Return ``~/cmd_vel``."""
-        return (self._command,)
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """Return ``~/cmd_vel`` and the lock."""
+        return self._command, self._emergency_stop
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odom`` and ``/tf``."""
@@ -243,7 +247,10 @@ class OmniWheelDriveController(Controller):
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, update odometry, publish, drive the wheels."""
-        if self.is_chained:
+        if self._emergency_stop.is_engaged:
+            self._reception.discard(self.inputs(), time)
+            self._set_references((0.0, 0.0, 0.0))
+        elif self.is_chained:
             ignore_commands(self.inputs(), self.log)
         else:
             self._reception.receive(self._command.drain(), time - period)
@@ -305,5 +312,6 @@ class OmniWheelDriveController(Controller):
             parameters.diagonal_covariance.pose,
             parameters.diagonal_covariance.twist,
         )
+        self._emergency_stop = EmergencyStop(self.log)
         self._command = stamped_twist_input()
         self._odom, self._transform = odometry_outputs('~/odom', '/tf')

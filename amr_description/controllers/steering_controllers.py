@@ -39,7 +39,6 @@ from amr_description.control.interfaces import (
 from amr_description.control.samples import (
     Frames,
     SteeringStateSample,
-    TwistSample,
 )
 from amr_description.controllers.command_reception import (
     ignore_commands,
@@ -47,6 +46,7 @@ from amr_description.controllers.command_reception import (
     ReferenceReception,
 )
 from amr_description.controllers.drive_ports import (
+    EmergencyStop,
     odometry_outputs,
     reference_input,
     warn_of_one_shot_reference,
@@ -123,9 +123,9 @@ class SteeringController(Controller):
         """Return ``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
         return self._references
 
-    def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """Return ``~/reference``."""
-        return (self._command,)
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """Return ``~/reference`` and the lock."""
+        return self._command, self._emergency_stop
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odometry``, ``~/tf_odometry`` and ``~/controller_state``."""
@@ -162,7 +162,10 @@ class SteeringController(Controller):
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, update odometry, drive and steer, publish."""
-        if self.is_chained:
+        if self._emergency_stop.is_engaged:
+            self._reception.discard(self.inputs(), time)
+            self._set_references(_NONE)
+        elif self.is_chained:
             ignore_commands(self.inputs(), self.log)
         else:
             self._reception.receive(self._command.drain(), time - period)
@@ -258,6 +261,7 @@ class SteeringController(Controller):
             parameters.pose_covariance_diagonal,
             parameters.twist_covariance_diagonal,
         )
+        self._emergency_stop = EmergencyStop(self.log)
         self._command = reference_input()
         self._odom, self._transform = odometry_outputs('~/odometry', parameters.tf_odometry_topic)
         self._state: Output[SteeringStateSample] = Output(

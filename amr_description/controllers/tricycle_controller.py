@@ -41,12 +41,15 @@ from amr_description.control.samples import (
     AckermannSample,
     EmptySample,
     Frames,
-    TwistSample,
 )
 from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import CommandReception
 from amr_description.controllers.diff_drive_parameters import LENGTH
-from amr_description.controllers.drive_ports import odometry_outputs, stamped_twist_input
+from amr_description.controllers.drive_ports import (
+    EmergencyStop,
+    odometry_outputs,
+    stamped_twist_input,
+)
 from amr_description.controllers.odometry import LEAST_PERIOD, PlanarOdometry
 from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
 from amr_description.errors import ControllerError
@@ -129,9 +132,9 @@ class TricycleController(Controller):
         """Return the same."""
         return self._interfaces()
 
-    def inputs(self) -> tuple[Input[TwistSample], ...]:
-        """Return ``~/cmd_vel``."""
-        return (self._command,)
+    def inputs(self) -> tuple[Input[Any], ...]:
+        """Return ``~/cmd_vel`` and the lock."""
+        return self._command, self._emergency_stop
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odom`` and, if enabled, ``/tf`` and ``~/cmd_ackermann``."""
@@ -172,6 +175,8 @@ class TricycleController(Controller):
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, update odometry, publish, drive and steer."""
+        if self._emergency_stop.is_engaged:
+            self._reception.discard(self.inputs(), time)
         self._reception.receive(self._command.drain(), time - period)
         linear, angular = self._reception.in_force(time) or _AT_REST
         speed, angle = (state.value for state in self._states)
@@ -247,6 +252,7 @@ class TricycleController(Controller):
             parameters.pose_covariance_diagonal,
             parameters.twist_covariance_diagonal,
         )
+        self._emergency_stop = EmergencyStop(self.log)
         self._command = stamped_twist_input()
         self._odom, self._transform = odometry_outputs('~/odom', '/tf')
         self._command_out: Output[AckermannSample] = Output(

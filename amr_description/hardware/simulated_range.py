@@ -24,7 +24,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
 
-from amr_description.clock import NANOSECONDS
+from amr_description.clock import instants_until
 from amr_description.control.interfaces import StateInterface
 from amr_description.control.world import World
 from amr_description.errors import HardwareError
@@ -139,7 +139,7 @@ class SimulatedRange(SimulatedSensor):
         self._elapsed += period
         rate = self._limits.update_rate
         if rate > 0.0:
-            instant = math.floor(self.world.time / NANOSECONDS * rate + 1e-6)
+            instant = instants_until(self.world.time, rate)
             if instant == self._instant:
                 return
             self._instant = instant

@@ -12,7 +12,7 @@ of each controller that subscribes to something takes its messages.
 ``loop_watchdog.py``           logs when the loop stands, and in which call
 ``pacing.py``                  when the next cycle is due: by wall, system or received clock
 ``loop_publisher.py``          publishes ``/clock`` and what controllers send, after each cycle
-``realtime.py``                priority, cores and memory of the control thread
+``realtime.py``                time slice, priority, cores and memory of the control thread
 
 ``controller_manager_node.py`` the node, and how a manager is brought up
 ``robot_description.py``       the topic from which it has its robot

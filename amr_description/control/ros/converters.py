@@ -20,7 +20,7 @@ from control_msgs.msg import (
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
-from std_msgs.msg import Float64, Float64MultiArray
+from std_msgs.msg import Bool, Float64, Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control import trajectory_samples
@@ -33,6 +33,7 @@ from amr_description.control.samples import (
     DynamicJointStateSample,
     DynamicLayout,
     EmptySample,
+    FlagSample,
     Frames,
     ImuConstants,
     ImuSample,
@@ -196,6 +197,11 @@ def command_sample(message: Float64) -> CommandsSample:
     return CommandsSample((message.data,))
 
 
+def flag_sample(message: Bool) -> FlagSample:
+    """Keep the flag."""
+    return FlagSample(message.data)
+
+
 def fill_imu(sample: ImuSample, message: Imu) -> None:
     """Write what is measured and, the first time, frame and covariances."""
     if message.header.frame_id != sample.constants.frame_id:
@@ -241,6 +247,7 @@ _READERS: dict[_Key, Callable[[Any], Any]] = {
     (CommandsSample, 'std_msgs/msg/Float64'): command_sample,
     (CommandsSample, 'std_msgs/msg/Float64MultiArray'): commands_sample,
     (EmptySample, 'std_srvs/srv/Empty_Request'): empty_sample,
+    (FlagSample, 'std_msgs/msg/Bool'): flag_sample,
     (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
     **dof_converters.READERS,

@@ -49,6 +49,7 @@ from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import (
     bytes_publisher,
     manual_clock,
+    publisher_without_lock,
     RcutilsLogger,
     share_clock,
 )
@@ -74,7 +75,7 @@ class LoopTopic:
 
     __slots__ = (
         'publisher', 'is_heard', 'keeps_last', 'newest',
-        '_keeps_many', '_encode', '_publish_bytes', '_outbox',
+        '_keeps_many', '_encode', '_publish_bytes', '_publish_without_lock', '_outbox',
     )  # fmt: skip
 
     def __init__(
@@ -89,6 +90,7 @@ class LoopTopic:
         self.newest: Any = _NOTHING
         """The sample that has still to be kept for those."""
         self._encode, self._publish_bytes = encode, bytes_publisher(publisher)
+        self._publish_without_lock = publisher_without_lock(publisher)
         self._outbox = outbox
 
     def send(self, sample: Any) -> None:
@@ -102,6 +104,14 @@ class LoopTopic:
             self._publish_bytes(made)
         else:
             self.publisher.publish(made)
+
+    def write_aside(self, sample: Any) -> None:
+        """
+        Publish a big sample now, while other threads go on: the control thread, above all.
+
+        Its encoder makes bytes. Raises InvalidHandle: the topic is gone.
+        """
+        self._publish_without_lock(self._encode(sample))
 
     def look(self) -> None:
         """Look whether somebody subscribes, 0.9 µs. Raises InvalidHandle: the topic is gone."""

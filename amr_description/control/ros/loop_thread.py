@@ -32,6 +32,7 @@ from amr_description.control.ros.loop_watchdog import (
     WALL_CLOCK,
     WatchdogClock,
 )
+from amr_description.control.ros.realtime import set_time_slice, SHORT_SLICE
 from amr_description.ros.log_thread import LogThread
 from amr_description.streams import print_traceback
 
@@ -211,6 +212,7 @@ class LoopThread:
         try:
             self.on_start()
             self._watchdog.start()
+            set_time_slice(SHORT_SLICE)
             self.loop.run()
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             print_traceback()

@@ -511,11 +511,12 @@ def test_open_loop_odometry(first):
 
 
 def test_plain_twists_are_taken_only_if_enabled():
-    assert len(Bench().controller.inputs()) == 1
+    assert len(Bench().controller.inputs()) == 2
     ports = [port.port for port in Bench(enable_cmd_vel_unstamped=True).controller.inputs()]
     assert [(port.name, port.message) for port in ports] == [
         ('~/cmd_vel', 'geometry_msgs/msg/TwistStamped'),
         ('~/cmd_vel_unstamped', 'geometry_msgs/msg/Twist'),
+        ('emergency_stop', 'std_msgs/msg/Bool'),
     ]
 
 
@@ -630,10 +631,11 @@ def test_the_limited_command_is_published_at_every_update_with_its_time():
     ]
 
 
-def test_topics_are_those_of_ros2_controllers():
+def test_topics_are_those_of_ros2_controllers_and_the_lock():
     controller = Bench(publish_limited_velocity=True).controller
     assert [(port.port.name, port.port.message) for port in controller.inputs()] == [
-        ('~/cmd_vel', 'geometry_msgs/msg/TwistStamped')
+        ('~/cmd_vel', 'geometry_msgs/msg/TwistStamped'),
+        ('emergency_stop', 'std_msgs/msg/Bool'),  # the one that is ours
     ]
     assert [(port.port.name, port.port.message) for port in controller.outputs()] == [
         ('~/odom', 'nav_msgs/msg/Odometry'),

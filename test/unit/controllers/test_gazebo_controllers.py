@@ -55,7 +55,7 @@ class Drive:
 
 def test_a_drive_takes_plain_twists_until_the_next_one():
     bench = Drive()
-    (port,) = bench.drive.inputs()
+    port, _ = bench.drive.inputs()
     assert (port.port.name, port.port.message) == ('~/cmd_vel', 'geometry_msgs/msg/Twist')
     bench.command(0.4, 0.8)
     assert bench.update() == pytest.approx([2.0, 6.0])
@@ -118,7 +118,7 @@ def driven(kind, twist, **values):
     drive.activate(commands, states, 0)
     drive.update(PERIOD, PERIOD)
     rest = [each.value for each in commands]
-    (port,) = drive.inputs()
+    port, _ = drive.inputs()
     assert (port.port.name, port.port.message) == ('~/cmd_vel', 'geometry_msgs/msg/Twist')
     port.open()
     port.put(TwistSample(0, *twist))
@@ -175,7 +175,7 @@ def test_a_body_is_moved_by_the_latest_command():
     assert [each.interface for each in commands] == ['linear.x', 'linear.y', 'angular.z']
     move.activate(commands, (), 0)
     assert [each.value for each in commands] == [0.0, 0.0, 0.0]
-    (port,) = move.inputs()
+    port, _ = move.inputs()
     port.open()
     port.put(TwistSample(0, 9.0, 9.0))
     port.put(TwistSample(0, 0.1, 0.3, lateral=0.2))
