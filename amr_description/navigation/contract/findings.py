@@ -1,0 +1,71 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The outcome of a rule."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+
+from amr_description.navigation.contract.observations import Observations
+
+
+class Verdict(StrEnum):
+    """Whether a demand holds."""
+
+    PASSED = 'passed'
+    FAILED = 'failed'
+    NOT_CHECKED = 'not checked'
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a rule says of a robot."""
+
+    verdict: Verdict
+    found: str
+    """Figures, and names of nodes; of what is not checked, why."""
+    advice: str = ''
+    """What would do; empty where nothing has to be done."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One demand."""
+
+    name: str
+    asked: str
+    source: str
+    """Whose demand it is."""
+    check: Callable[[Observations], Outcome]
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One demand and its outcome."""
+
+    name: str
+    verdict: Verdict
+    asked: str
+    found: str
+    advice: str
+    source: str
+
+
+def passed(found: str, advice: str = '') -> Outcome:
+    """Return that a demand holds."""
+    return Outcome(Verdict.PASSED, found, advice)
+
+
+def failed(found: str, advice: str) -> Outcome:
+    """Return that a demand does not hold."""
+    return Outcome(Verdict.FAILED, found, advice)
+
+
+def not_checked(found: str, advice: str = '') -> Outcome:
+    """Return that it is not known whether a demand holds, and why."""
+    return Outcome(Verdict.NOT_CHECKED, found, advice)
+
+
+def outcome(holds: bool, found: str, advice: str) -> Outcome:
+    """Return whether a demand holds; ``advice`` is for the case that it does not."""
+    return passed(found) if holds else failed(found, advice)

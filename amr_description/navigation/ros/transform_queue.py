@@ -1,0 +1,66 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Messages that wait until a transform at their stamp is known, as in ``tf2_ros::MessageFilter``.
+
+What a robot measures at an instant is often there before the odometry of that instant. It is not
+taken with an older transform, which would be wrong while the robot drives, nor lost.
+"""
+
+from collections import deque
+from collections.abc import Callable
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.task import Future
+from rclpy.time import Time
+
+from amr_description.tf2_ros.buffer import Buffer
+
+
+class TransformQueue[Item]:
+    """A queue in front of a callback, which gets each item with its transform, in their order."""
+
+    def __init__(
+        self, buffer: Buffer, handle: Callable[[Item, TransformStamped], object], depth: int
+    ) -> None:
+        """
+        Begin empty.
+
+        Args:
+            buffer: Of the transforms.
+            handle: Called with each item and its transform; in the thread that has received the
+                transform, or in that of :meth:`add` if it was there.
+            depth: If more items wait, the oldest is dropped.
+        """
+        self._buffer = buffer
+        self._handle = handle
+        self._depth = depth
+        self._waiting: deque[Future] = deque()
+
+    def add(self, item: Item, target_frame: str, source_frame: str, stamp: int) -> None:
+        """
+        Have an item handled with the pose of ``source_frame`` in ``target_frame`` at its stamp.
+
+        Args:
+            item: What to handle.
+            target_frame: To which coordinates are transformed.
+            source_frame: In which they are given.
+            stamp: ns.
+        """
+        future = self._buffer.wait_for_transform_async(
+            target_frame, source_frame, Time(nanoseconds=stamp)
+        )
+        self._waiting.append(future)
+        while len(self._waiting) > self._depth:
+            self._waiting.popleft().cancel()
+        future.add_done_callback(lambda done: self._on_done(done, item))
+
+    def clear(self) -> None:
+        """Drop what waits, as time has gone back."""
+        while self._waiting:
+            self._waiting.popleft().cancel()
+
+    def _on_done(self, future: Future, item: Item) -> None:
+        if not future.cancelled():
+            self._waiting.remove(future)
+            self._handle(item, future.result())
