@@ -10,6 +10,7 @@ import { createHash } from 'node:crypto';
 import { copyFile, mkdir, readdir, readFile, rm, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { brotliCompressSync } from 'node:zlib'; // of the best quality by default
 import * as esbuild from 'esbuild';
 
 const here = path.dirname(fileURLToPath(import.meta.url));
@@ -19,7 +20,11 @@ await rm(out, { recursive: true, force: true });
 await mkdir(out, { recursive: true });
 const { metafile } = await esbuild.build({
   absWorkingDir: here,
-  entryPoints: ['src/main.ts', 'src/style.css'],
+  entryPoints: [
+    { in: 'src/main.ts', out: 'main' },
+    { in: 'src/socket/worker.ts', out: 'socket' },
+    { in: 'src/style.css', out: 'style' },
+  ],
   outdir: out,
   bundle: true,
   format: 'esm',
@@ -31,6 +36,12 @@ const { metafile } = await esbuild.build({
 });
 for (const name of ['index.html', 'icon.svg']) {
   await copyFile(path.join(here, 'src', name), path.join(out, name));
+}
+for (const name of await readdir(out)) {
+  if (/\.(js|css)$/.test(name)) {
+    const content = await readFile(path.join(out, name));
+    await writeFile(path.join(out, `${name}.br`), brotliCompressSync(content));
+  }
 }
 await writeFile(path.join(out, 'licenses.txt'), await licences(Object.keys(metafile.inputs)));
 await writeFile(path.join(out, 'sources.sha256'), `${await digestOfSources()}\n`);

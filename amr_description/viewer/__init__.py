@@ -3,15 +3,22 @@
 """
 The server of the browser page, without ROS; the only package that imports websockets.
 
-=================== ===============================================================================
+==================== ==============================================================================
 ``server.py``       :class:`Server`: one port for the page and its WebSocket; start reading here
 ``backend.py``      :class:`Backend`: what the server needs to know about the robots
-``sessions.py``     the connected pages, and what becomes of their messages
+``pages.py``        the connected pages, and what each is sent
+``sessions.py``     what becomes of their messages
 ``drive_lock.py``   which page drives which robot, and until when
-``protocol.py``     messages to pages, as in ``web/src/protocol.ts``
+``stop_latch.py``   which robots STOP holds, and whether they stand still
+``emergency_stops.py`` … held by the backend, until they are released
+``pushes.py``       which page pushes which link, and until when
+``protocol.py``     messages to pages; ``web/src/protocol.ts`` is written from them
+``introspection.py`` … about the ROS graph itself
+``navigation.py``   … about who navigates, and the goals of pages
 ``requests.py``     messages from pages, validated
 ``states.py``       the binary frames: everything that moves
-``samples.py``      … and what a sensor has measured
+``real_time.py``    how fast simulated time goes
+``samples.py``      … and what came by a topic
 ``pictures.py``     pictures of cameras, made small
 ``clouds.py``       point clouds, thinned
 ``http.py``         plain HTTP: the files of the page, meshes, security headers
@@ -20,7 +27,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``joint_groups.py`` the joints that controllers let a page move, and to where
 ``client.py``       a page without a browser, for measurements and tests
 ``ros/``            the backend for the ROS graph
-=================== ===============================================================================
+==================== ==============================================================================
 
 The built page is in ``static/``; its sources are in ``web/`` at the top.
 """

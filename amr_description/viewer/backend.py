@@ -3,12 +3,62 @@
 """What the server needs from whatever knows the robots."""
 
 from collections.abc import Mapping, Sequence, Set as AbstractSet
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
-from amr_description.viewer.protocol import ServerMessage
+from amr_description.model.frames import Vector
+from amr_description.viewer.protocol import Channel, ServerMessage
 from amr_description.viewer.requests import Part, Request
 from amr_description.viewer.samples import Sample
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """
+    What one page, or any page, shows of what is collected on demand.
+
+    Attributes:
+        parts: Of the states, beyond what every state has.
+        sensors: Topics of sensors.
+        messages: Topics whose latest message is shown.
+        fields: By topic, the paths of the numbers that are plotted.
+    """
+
+    parts: frozenset[Part] = frozenset()
+    sensors: frozenset[str] = frozenset()
+    messages: frozenset[str] = frozenset()
+    fields: Mapping[str, frozenset[str]] = field(default_factory=dict)
+
+    @property
+    def latest(self) -> frozenset[tuple[Channel, str]]:
+        """The channels of which a page gets the newest sample alone."""
+        return frozenset(
+            [('sensor', each) for each in self.sensors]
+            + [('message', each) for each in self.messages]
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """How a stopped robot is held."""
+
+    motion: float | None
+    """How it moves, in multiples of what counts as still; None: nothing has measured it lately."""
+    is_locked: bool
+    """What drives it takes part in the lock."""
+    controllers: tuple[str, ...]
+    """The active controllers that drive it."""
+    deactivated: tuple[str, ...]
+    """Those that were deactivated for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What was done, on one line, or what was asked for."""
+
+    message: str
+    data: Any = None
 
 
 class Backend(Protocol):
@@ -25,12 +75,12 @@ class Backend(Protocol):
     def close(self) -> None:
         """The last page has disconnected: stop."""
 
-    def watch(self, parts: AbstractSet[Part], topics: AbstractSet[str]) -> None:
+    def watch(self, watched: Watched) -> None:
         """
         Collect these parts of states, too, for all robots, and no other part of this kind.
 
         None is collected at first. A part that is not collected is not known, NaN. And subscribe
-        to these topics of sensors, of those that there are, and to no others.
+        to these topics, of those that there are, and to no others.
         """
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
@@ -40,20 +90,38 @@ class Backend(Protocol):
         The layout of a state is among the messages of the same call or of an earlier one.
         """
 
-    def take_samples(self, wanted: AbstractSet[str]) -> Sequence[Sample]:
+    def take_samples(self, wanted: AbstractSet[tuple[Channel, str]]) -> Sequence[Sample]:
         """
-        Return the new samples of sensors since the last call, at most one a topic.
+        Return the new samples since the last call, at most one a topic and channel.
 
         Args:
-            wanted: Of the topics that are watched, those of which a page can take a sample now. Of
-                others none need be made.
+            wanted: Of the channels that are watched, those of which a page can take a sample now.
+                Of others none need be made; those of ``values`` always are.
         """
 
     def robots(self) -> Sequence[str]:
         """Return the robots that take velocity commands."""
 
+    def known(self) -> Sequence[str]:
+        """Return all robots."""
+
+    def hold(self, robots: AbstractSet[str]) -> Mapping[str, Hold]:
+        """
+        Hold these robots at rest, and release those that were held and are not among them.
+
+        To be called 20 times per second while there are any. The first call commands them to stop
+        before it returns.
+        """
+
     def drive(self, robot: str, linear: float, angular: float, sideways: float = 0.0) -> None:
         """Publish one command now, m/s, rad/s and m/s to the left. Raises ViewerError."""
+
+    def push(self, simulator: str, entity: str, link: str, force: Vector, torque: Vector) -> None:
+        """
+        Push a link, N and N m in the axes of ``world``, until the next call for it.
+
+        No force and no torque let it go. Raises ViewerError.
+        """
 
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
         """
@@ -63,8 +131,14 @@ class Backend(Protocol):
     def hold_joints(self, robot: str | None) -> None:
         """Stop the joints of a robot, None: of all, that pages have moved by controllers."""
 
-    async def handle(self, request: Request) -> str:
-        """Carry out a request; return one line about what was done. Raises ViewerError."""
+    async def handle(self, request: Request, page: str) -> Answer:
+        """Carry out a request of a page, which is named. Raises ViewerError."""
+
+    def forget(self, page: str) -> None:
+        """A page has disconnected: end what it alone wanted."""
+
+    def latest(self, part: Part) -> ServerMessage | None:
+        """Return what a page that begins to show a part is sent at once; None: nothing yet."""
 
     def mesh(self, name: str) -> Path | bytes | None:
         """Return what a model calls ``/mesh/<name>``, or its file; None: no model names it."""

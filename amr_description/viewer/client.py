@@ -12,11 +12,11 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
 from amr_description.viewer.http import SOCKET_PATH
-from amr_description.viewer.protocol import SUBPROTOCOL
+from amr_description.viewer.protocol import PROTOCOL
 
 
 def page_socket(
-    url: str, subprotocols: Sequence[str] | None = (SUBPROTOCOL,), **options: Any
+    url: str, subprotocols: Sequence[str] | None = (PROTOCOL,), **options: Any
 ) -> ClientConnection:
     """Open the WebSocket of the page at ``url``, as the viewer logs it; a context manager."""
     parts = urlsplit(url)

@@ -62,6 +62,10 @@ class DriveLock:
         self._latest[robot] = client
         return True
 
+    def block(self, robot: str, client: str, time: float) -> None:
+        """Refuse a client until it has let go: it drives a robot that is held at rest."""
+        self._blocked[robot, client] = time + self._timeout
+
     def stop(self, robot: str, client: str, time: float) -> str | None:
         """
         Release the lock of a robot, whoever holds it, because ``client`` stops the robot.

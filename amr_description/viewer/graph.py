@@ -7,11 +7,12 @@ Pure: names and types in, names out. Every namespace with a ``robot_description`
 name belongs to the robot with the longest namespace that contains it.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set as AbstractSet
 from dataclasses import dataclass, field
 from typing import Literal
 
 from amr_description.viewer.joint_groups import ACTIONS, is_joint_command, POSITIONS, TRAJECTORY
+from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.protocol import Command, SensorInfo
 
 STRING = 'std_msgs/msg/String'
@@ -22,9 +23,11 @@ ODOMETRY = 'nav_msgs/msg/Odometry'
 DYNAMIC_JOINT_STATE = 'control_msgs/msg/DynamicJointState'
 TF = 'tf2_msgs/msg/TFMessage'
 MARKERS = 'visualization_msgs/msg/MarkerArray'
+ENTITY_WRENCH = 'ros_gz_interfaces/msg/EntityWrench'
 ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 STATISTICS_VALUES = 'pal_statistics_msgs/msg/StatisticsValues'
 LIST_CONTROLLERS = 'controller_manager_msgs/srv/ListControllers'
+GET_PARAMETERS = 'rcl_interfaces/srv/GetParameters'
 SET_SIMULATION_STATE = 'simulation_interfaces/srv/SetSimulationState'
 LASER_SCAN = 'sensor_msgs/msg/LaserScan'
 CLOUD = 'sensor_msgs/msg/PointCloud2'
@@ -33,7 +36,14 @@ COMPRESSED_IMAGE = 'sensor_msgs/msg/CompressedImage'
 RANGE = 'sensor_msgs/msg/Range'
 GZ_CONTACTS = 'ros_gz_interfaces/msg/Contacts'
 CLASSIC_CONTACTS = 'gazebo_msgs/msg/ContactsState'
-SENSORS: Mapping[str, Literal['scan', 'cloud', 'picture', 'range', 'contacts']] = {
+OCCUPANCY_GRID = 'nav_msgs/msg/OccupancyGrid'
+PATH = 'nav_msgs/msg/Path'
+GOAL = 'geometry_msgs/msg/PoseStamped'
+INITIAL_POSE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
+NAVIGATE = 'nav2_msgs/action/NavigateToPose'
+NAVIGATE_FEEDBACK = f'{NAVIGATE}_FeedbackMessage'
+"""What a server of the action publishes: its services have names for as long as it has clients."""
+SENSORS: Mapping[str, Literal['scan', 'cloud', 'picture', 'range', 'contacts', 'map', 'path']] = {
     LASER_SCAN: 'scan',
     CLOUD: 'cloud',
     IMAGE: 'picture',
@@ -41,12 +51,15 @@ SENSORS: Mapping[str, Literal['scan', 'cloud', 'picture', 'range', 'contacts']] 
     RANGE: 'range',
     GZ_CONTACTS: 'contacts',
     CLASSIC_CONTACTS: 'contacts',
+    OCCUPANCY_GRID: 'map',
+    PATH: 'path',
 }
 """Type of a topic -> how a page shows it."""
 
 _COMPRESSED = '/compressed'
 """What image_transport appends to the topic of the same pictures as JPEG or PNG."""
 _GOALS = '/_action/send_goal'
+_FEEDBACK = '/_action/feedback'
 
 type NamesAndTypes = Mapping[str, Iterable[str]]
 """Name of a topic or service -> its types."""
@@ -71,6 +84,9 @@ class FoundRobot:
 
     id: str
     description: str
+    is_present: bool
+    """False: only described, while a simulator runs that has no such robot; it was deleted, or is
+    not spawned yet, or the description is but one of fixed frames."""
     command: Command | None
     odometry: str | None
     truth: str | None
@@ -83,6 +99,8 @@ class FoundRobot:
     """``…/introspection_data`` of its controller manager, with ``/names`` and ``/values``."""
     joint_commands: tuple[Command, ...]
     """Topics and actions by which controllers may move joints."""
+    drive_parameters: str | None = None
+    """The service that gets parameters of the controller that takes the commands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +110,8 @@ class FoundSimulator:
     id: str
     world: str | None
     services: frozenset[str]
+    hears_wrenches: bool
+    """Whether it takes ``~/wrench/persistent``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,28 +123,26 @@ class DiscoveredGraph:
     tf_namespaces: tuple[str, ...] = ()
     """Namespaces with a TF of their own, such as ``/robot1`` of ``/robot1/tf``."""
     sensors: tuple[SensorInfo, ...] = ()
+    navigators: tuple[Navigator, ...] = ()
 
 
-def discover(names: GraphNames, described: Iterable[str] = ()) -> DiscoveredGraph:
-    """
-    Find robots and simulators.
-
-    Args:
-        names: of the graph.
-        described: ids of robots whose description is known from elsewhere. They are found as long
-            as their ground truth is published.
-    """
+def discover(names: GraphNames) -> DiscoveredGraph:
+    """Find robots, simulators and sensors by the names of the graph."""
     ids = {
         topic.removesuffix('robot_description').rstrip('/') or '/'
         for topic, types in names.published.items()
         if topic.endswith('/robot_description') and STRING in types
     }
-    ids |= {each for each in described if _truth(names, each)}
+    simulators = tuple(_simulators(names))
     return DiscoveredGraph(
-        tuple(_robot(names, each, lambda name: robot_of(name, ids)) for each in sorted(ids)),
-        tuple(_simulators(names)),
+        tuple(
+            _robot(names, each, lambda name: robot_of(name, ids), is_simulated=bool(simulators))
+            for each in sorted(ids)
+        ),
+        simulators,
         _tf_namespaces(names),
         tuple(_sensors(names, ids)),
+        tuple(_navigators(names, ids)),
     )
 
 
@@ -134,7 +152,9 @@ def robot_of(name: str, ids: Iterable[str]) -> str | None:
     return max(fitting, key=len, default=None)
 
 
-def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None]) -> FoundRobot:
+def _robot(
+    names: GraphNames, robot: str, find_robot: Callable[[str], str | None], *, is_simulated: bool
+) -> FoundRobot:
     namespace = robot.rstrip('/')
 
     def own(names: NamesAndTypes, type_name: str) -> list[str]:
@@ -162,12 +182,15 @@ def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None
     ]
     manager = _shortest(managers)
     introspection = f'{manager}/introspection_data'
+    truth, command = _truth(names, robot), _command(names, own)
     return FoundRobot(
         id=robot,
         description=f'{namespace}/robot_description',
-        command=_command(names, own),
+        # Not its manager: a service has a name for as long as anybody has a client of it.
+        is_present=not is_simulated or bool(truth or odometries or joint_states),
+        command=command,
         odometry=_shortest(odometries, f'{namespace}/odom'),
-        truth=_truth(names, robot),
+        truth=truth,
         wheels=names.if_published(f'{namespace}/ground_truth/wheels', DYNAMIC_JOINT_STATE),
         joint_states=_shortest(joint_states, f'{namespace}/joint_states'),
         joint_publisher=_shortest(joint_publishers) or None,
@@ -177,6 +200,7 @@ def _robot(names: GraphNames, robot: str, find_robot: Callable[[str], str | None
         if names.if_published(f'{introspection}/values', STATISTICS_VALUES)
         else None,
         joint_commands=_joint_commands(names, own),
+        drive_parameters=_drive_parameters(names, command),
     )
 
 
@@ -191,6 +215,14 @@ def _command(names: GraphNames, own: Callable[[NamesAndTypes, str], list[str]]) 
         return None
     _, rank, _, topic = min(choices)
     return Command(topic, TWISTS[rank])
+
+
+def _drive_parameters(names: GraphNames, command: Command | None) -> str | None:
+    """Return the service by the topic ``~/cmd_vel`` or ``~/reference`` of a controller."""
+    if command is None:
+        return None
+    service = f'{command.topic.rpartition("/")[0]}/get_parameters'
+    return service if GET_PARAMETERS in names.services.get(service, ()) else None
 
 
 def _joint_commands(
@@ -220,7 +252,12 @@ def _simulators(names: GraphNames) -> Iterator[FoundSimulator]:
         if SET_SIMULATION_STATE in types:
             node = service.rpartition('/')[0]
             services = frozenset(name for name in names.services if name.startswith(f'{node}/'))
-            yield FoundSimulator(node, names.if_published(f'{node}/world', MARKERS), services)
+            yield FoundSimulator(
+                node,
+                names.if_published(f'{node}/world', MARKERS),
+                services,
+                ENTITY_WRENCH in names.subscribed.get(f'{node}/wrench/persistent', ()),
+            )
 
 
 def _sensors(names: GraphNames, ids: Iterable[str]) -> Iterator[SensorInfo]:
@@ -228,9 +265,39 @@ def _sensors(names: GraphNames, ids: Iterable[str]) -> Iterator[SensorInfo]:
     for topic, types in sorted(names.published.items()):
         message = next((each for each in types if each in SENSORS), None)
         robot = robot_of(topic, ids)
+        if robot is None and message in (OCCUPANCY_GRID, PATH):
+            robot = ''  # such as a map that all robots of a fleet have
         if message is None or robot is None or _is_shown_otherwise(names, topic, message):
             continue
         yield SensorInfo(topic, robot, SENSORS[message], message)
+
+
+def _navigators(names: GraphNames, ids: AbstractSet[str]) -> Iterator[Navigator]:
+    """Yield who hears of goals and poses; of one robot that is alone also by names outside it."""
+    alone = next(iter(ids)) if len(ids) == 1 else None
+
+    def ends_of(names: NamesAndTypes, type_name: str, end: str, robot: str) -> str | None:
+        found = [
+            name
+            for name, types in names.items()
+            if type_name in types
+            and name.endswith(end)
+            and (robot_of(name, ids) or alone) == robot
+        ]
+        return _shortest(found, f'{robot.rstrip("/")}{end}')
+
+    for robot in sorted(ids):
+        feedback = ends_of(
+            names.published, NAVIGATE_FEEDBACK, f'/navigate_to_pose{_FEEDBACK}', robot
+        )
+        found = Navigator(
+            robot,
+            ends_of(names.subscribed, GOAL, '/goal_pose', robot),
+            feedback and feedback.removesuffix(_FEEDBACK),
+            ends_of(names.subscribed, INITIAL_POSE, '/initialpose', robot),
+        )
+        if found.goal or found.action or found.initial_pose:
+            yield found
 
 
 def _is_shown_otherwise(names: GraphNames, topic: str, message: str) -> bool:

@@ -1,19 +1,21 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Plain HTTP: the files of the page, the meshes of the robots, and one line for everything else.
+Plain HTTP: the files of the page, compressed, the meshes of the robots, and one line for all else.
 
 The headers of every response keep a browser from contacting any other server, from running inline
 scripts, and from showing the page inside another one.
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Set as AbstractSet
 from dataclasses import dataclass
 from email.utils import formatdate
+import gzip
 import hashlib
 from http import HTTPStatus
 from pathlib import Path
+import re
 from urllib.parse import unquote
 
 from websockets.asyncio.server import ServerConnection
@@ -82,6 +84,8 @@ class Content:
     data: bytes
     kind: str
     tag: str
+    encoding: str | None = None
+    """How the data is compressed: ``br``, ``gzip``; None: not at all."""
 
 
 def digest(data: bytes) -> str:
@@ -93,29 +97,50 @@ class StaticFiles:
     """
     The files below a folder that have a known content type.
 
-    A path is looked up among the files that exist, so no path leads out of the folder.
+    A path is looked up among the files that exist, so no path leads out of the folder. Beside a
+    file may be one that the build has compressed, of the same name and ``.br``; for a browser that
+    does not take that, which is one that is not on this host and comes without TLS, texts are
+    compressed by gzip, once.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._known: dict[Path, tuple[tuple[int, int], Content]] = {}
+        self._known: dict[tuple[Path, str | None], tuple[tuple[int, int], Content]] = {}
 
-    def get(self, path: str) -> Content | None:
-        """Return the file of a URL path such as ``/index.html``; None if there is none."""
+    def get(self, path: str, accepted: AbstractSet[str] = frozenset()) -> Content | None:
+        """
+        Return the file of a URL path such as ``/index.html``; None if there is none.
+
+        Args:
+            path: Of the URL.
+            accepted: The content codings that the browser takes.
+        """
         file = self._files().get(path)
         try:
-            return self._read(file) if file else None
+            return self._read(file, accepted) if file else None
         except OSError:  # a build is replacing it
             return None
 
-    def _read(self, file: Path) -> Content:
-        status = file.stat()
+    def _read(self, file: Path, accepted: AbstractSet[str]) -> Content:
+        is_text = CONTENT_TYPES[file.suffix.lower()].startswith('text/')
+        compressed = file.with_name(f'{file.name}.br')
+        if 'br' in accepted and compressed.is_file():
+            return self._cached(file, compressed, 'br', bytes)
+        if 'gzip' in accepted and is_text:
+            return self._cached(file, file, 'gzip', lambda data: gzip.compress(data, mtime=0))
+        return self._cached(file, file, None, bytes)
+
+    def _cached(
+        self, file: Path, source: Path, encoding: str | None, encode: Callable[[bytes], bytes]
+    ) -> Content:
+        status = source.stat()
         version = (status.st_mtime_ns, status.st_size)
-        known = self._known.get(file)
+        known = self._known.get((file, encoding))
         if known is None or known[0] != version:
-            data = file.read_bytes()
-            known = (version, Content(data, CONTENT_TYPES[file.suffix.lower()], digest(data)))
-            self._known[file] = known
+            data = encode(source.read_bytes())
+            kind = CONTENT_TYPES[file.suffix.lower()]
+            known = (version, Content(data, kind, digest(data), encoding))
+            self._known[file, encoding] = known
         return known[1]
 
     def _files(self) -> dict[str, Path]:
@@ -149,7 +174,7 @@ class HttpFiles:
         path = unquote(request.path.partition('?')[0])
         if path == SOCKET_PATH:
             return None
-        content = await self._content(path)
+        content = await self._content(path, _accepted(request))
         if content is None:
             if path == '/':
                 return _text(HTTPStatus.SERVICE_UNAVAILABLE, _NOT_BUILT)
@@ -160,12 +185,24 @@ class HttpFiles:
             response.headers['Set-Cookie'] = cookie
         return response
 
-    async def _content(self, path: str) -> Content | None:
+    async def _content(self, path: str, accepted: AbstractSet[str]) -> Content | None:
         if not path.startswith(MESH_PATH):
-            return self._static.get(_INDEX if path == '/' else path)
+            file = _INDEX if path == '/' else path
+            return await asyncio.to_thread(self._static.get, file, accepted)
         name = path.removeprefix(MESH_PATH)
         found = self._mesh(name)
         return await asyncio.to_thread(_read_mesh, name, found) if found else None
+
+
+def _accepted(request: Request) -> set[str]:
+    """Return the content codings that a browser takes (RFC 9110, 12.5.3); ``q=0`` refuses one."""
+    accepted = set()
+    for value in request.headers.get_all('Accept-Encoding'):
+        for item in value.split(','):
+            coding, _, quality = item.partition(';')
+            if not re.fullmatch(r'\s*q=0(\.0*)?\s*', quality):
+                accepted.add(coding.strip().lower())
+    return accepted
 
 
 def _read_mesh(name: str, found: Path | bytes) -> Content | None:
@@ -185,6 +222,9 @@ def _file(content: Content, request: Request, *, is_immutable: bool) -> Response
         b'' if is_known else content.data,
     )
     response.headers['ETag'] = tag
+    response.headers['Vary'] = 'Accept-Encoding'
+    if content.encoding is not None:
+        response.headers['Content-Encoding'] = content.encoding
     response.headers['Cache-Control'] = (
         'private, max-age=31536000, immutable' if is_immutable else 'private, no-cache'
     )

@@ -1,12 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Messages from pages, validated: a text frame becomes a frozen dataclass, or a ProtocolError says
-what is wrong with it. ``web/src/protocol.ts`` documents each message.
+The messages from pages, validated: a text frame is one of these, or refused in one line that says
+what is wrong with it.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, MISSING
+from dataclasses import dataclass, field, fields, MISSING
 import json
 import math
 from typing import Any, ClassVar, get_args, Literal
@@ -17,59 +17,132 @@ from amr_description.text import quote
 
 _LARGEST_ID = 2**53  # up to here JavaScript's numbers are exact integers
 _SHOWN = 80  # characters of a value that an error quotes
+MOST_TOPICS = 64
+"""Topics that a page may show of each kind: more are refused."""
+MOST_FIELDS = 256
+"""Fields that a page may plot, of all topics together: more are refused."""
+_HIGHEST_RATE = 100.0  # Hz
 _FASTEST = 100.0  # m/s or rad/s; no wheeled robot is faster
 
 type Speed = float
-"""m/s or rad/s; its own type, because it has a limit."""
-type Part = Literal['wheels']
-"""A part of a state that is collected only while a page shows it."""
+"""m/s or rad/s; its own type, because it has a limit: more than 100 either way is refused."""
+type Rate = float
+"""Hz; its own type, because more than 100, or less than 0, is refused."""
+type Document = str
+"""A text of any lines."""
+type Part = Literal['wheels', 'topics', 'rates', 'transforms', 'log']
+"""
+What the node collects only while a page shows it: a part of the states (wheels), or a message of
+the same name; ``rates`` are those of ``topics``.
+"""
 PARTS: tuple[Part, ...] = get_args(Part.__value__)
 
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """Move a robot: m/s ahead, rad/s to the left, and m/s to the left if its wheels can."""
+    """
+    Drive a robot, with the keyboard, the joystick or a gamepad, at most 60 times per second.
+
+    The first message acquires the robot's lock, if no other page holds it; ``stop`` (or
+    drive_timeout without a ``drive``) stops the robot and releases the lock. There is no reply,
+    as there is no ``id``; a refusal is a notice.
+    """
 
     types: ClassVar[tuple[str, ...]] = ('drive',)
     robot: str
-    linear: Speed
-    angular: Speed
-    sideways: Speed = 0.0
+    linear: Speed  #: m/s ahead; more than 100 either way is refused
+    angular: Speed  #: rad/s to the left, of the same bounds
+    sideways: Speed = 0.0  #: m/s to the left, of robots whose wheels can
 
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """Stop a robot; None: all robots."""
+    """
+    Stop a robot once, whichever page drives it: what a page sends when it lets go.
+
+    Joints that pages have moved by controllers stay where they are.
+    """
 
     types: ClassVar[tuple[str, ...]] = ('stop',)
-    robot: str | None
+    robot: str | None  #: ``None``: all robots
+
+
+@dataclass(frozen=True, slots=True)
+class PressStop:
+    """
+    STOP: hold a robot at rest until it is released, whoever commands it.
+
+    It outlives this page. See the message `emergency_stop` for what becomes of it.
+    """
+
+    types: ClassVar[tuple[str, ...]] = ('press_stop',)
+    robot: str | None  #: ``None``: all robots, also those that come later
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """
+    Release a robot from ``press_stop``, whichever page pressed it.
+
+    Pages that drove it must let go before they can drive again.
+    """
+
+    types: ClassVar[tuple[str, ...]] = ('release',)
+    robot: str | None  #: ``None``: all robots
 
 
 @dataclass(frozen=True, slots=True)
 class SetJoints:
-    """Move joints by joint_state_publisher, or by active controllers, rad or m."""
+    """
+    Move joints: by joint_state_publisher where there is one, else by the active controllers whose
+    ``moves`` have them; a trajectory takes the time that the joints' limits of velocity ask for.
+    """
 
     types: ClassVar[tuple[str, ...]] = ('set_joints',)
     robot: str
-    positions: Mapping[str, float]
+    positions: Mapping[str, float]  #: rad or m, by the names of the joints
+
+
+@dataclass(frozen=True, slots=True)
+class Push:
+    """
+    Push a link, as by a hand that holds it, at most 60 times per second.
+
+    The last force acts until the next one, or none for 0.3 s; a page that has gone pushes nothing.
+    There is no reply; a refusal is a notice.
+    """
+
+    types: ClassVar[tuple[str, ...]] = ('push',)
+    simulator: str
+    entity: str  #: by the name that ``delete`` takes
+    link: str
+    force: Vector  #: N, in the axes of ``world``, at the origin of the link; 0, 0, 0: let go
+    torque: Vector  #: N m
 
 
 @dataclass(frozen=True, slots=True)
 class Watch:
     """
-    What the page shows from now on of what is collected on demand.
+    What this page shows from now on of what is collected on demand; nothing for a new connection.
 
-    ``parts``: of the states, beyond those that every state has; ``topics``: of sensors.
+    What no page shows is not known, NaN, in the states of all pages, and not subscribed: a
+    simulator need not work it out. There is no reply.
     """
 
     types: ClassVar[tuple[str, ...]] = ('watch',)
+    #: of the states, beyond those that every state has; any other than those of Part is refused
     parts: tuple[Part, ...]
-    topics: tuple[str, ...] = ()
+    topics: tuple[str, ...] = ()  #: of SensorInfo; one that is not there may come later
+    #: any topics, whose messages come whole (see AnyMessage), a few a second; likewise
+    messages: tuple[str, ...] = ()
+    #: by any topic, paths of numbers, as ``ros2 topic echo --field`` has them (``position[2]``),
+    #: which come of each message (see Values)
+    fields: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
 class Play:
-    """Run the simulation, or (type ``pause``) pause it."""
+    """Run the simulation, or pause it."""
 
     types: ClassVar[tuple[str, ...]] = ('play', 'pause')
     type: str
@@ -98,17 +171,17 @@ class ResetSimulation:
 
 @dataclass(frozen=True, slots=True)
 class SetFactor:
-    """Set the real-time factor; 0: as fast as possible."""
+    """Set the real-time factor."""
 
     types: ClassVar[tuple[str, ...]] = ('set_factor',)
     id: int
     simulator: str
-    factor: float
+    factor: float  #: 0: as fast as possible
 
 
 @dataclass(frozen=True, slots=True)
 class Spawn:
-    """Spawn a robot with the description of robot ``like``; position in m, yaw in rad."""
+    """Spawn a robot."""
 
     types: ClassVar[tuple[str, ...]] = ('spawn',)
     id: int
@@ -117,7 +190,40 @@ class Spawn:
     namespace: str
     position: Vector
     yaw: float
-    like: str
+    like: str | None  #: the robot whose description and active controllers it gets
+    urdf: Document | None = None  #: its description, where it is like no other
+
+
+@dataclass(frozen=True, slots=True)
+class LoadWorld:
+    """Load another world; the robots are spawned again in it, with their active controllers."""
+
+    types: ClassVar[tuple[str, ...]] = ('load_world',)
+    id: int
+    simulator: str
+    name: str  #: one of ``worlds``
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Put a robot elsewhere, upright and at rest."""
+
+    types: ClassVar[tuple[str, ...]] = ('place',)
+    id: int
+    simulator: str
+    name: str
+    position: Vector  #: of its root link, in ``world``
+    yaw: float
+
+
+@dataclass(frozen=True, slots=True)
+class ResetEntity:
+    """Put a robot back to where it was spawned, at rest; time goes on."""
+
+    types: ClassVar[tuple[str, ...]] = ('reset_entity',)
+    id: int
+    simulator: str
+    name: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,12 +247,154 @@ class Switch:
     deactivate: tuple[str, ...]
 
 
-type Request = Play | Step | ResetSimulation | SetFactor | Spawn | Delete | Switch
-"""Messages with an ``id``, which get a reply."""
-type ClientMessage = Drive | Stop | SetJoints | Watch | Request
+@dataclass(frozen=True, slots=True)
+class DeactivateDrive:
+    """Deactivate the controllers that drive a stopped robot, until it is released."""
 
-REQUESTS = (Play, Step, ResetSimulation, SetFactor, Spawn, Delete, Switch)
-MESSAGES = (Drive, Stop, SetJoints, Watch, *REQUESTS)
+    types: ClassVar[tuple[str, ...]] = ('deactivate_drive',)
+    id: int
+    robot: str
+
+
+@dataclass(frozen=True, slots=True)
+class Definition:
+    """Ask what a message has: FieldInfo of each field."""
+
+    types: ClassVar[tuple[str, ...]] = ('definition',)
+    id: int
+    message: str  #: its type: "geometry_msgs/msg/Twist"
+
+
+@dataclass(frozen=True, slots=True)
+class Publish:
+    """
+    Publish a message, once or at a rate: until ``unpublish``, or the end of this page.
+
+    Another one of the same topic takes the place of the first. A velocity command is refused while
+    a stop holds.
+    """
+
+    types: ClassVar[tuple[str, ...]] = ('publish',)
+    id: int
+    topic: str
+    message: str  #: its type
+    #: of the fields that are not their defaults; "now" is a time, "auto" a header
+    values: Mapping[str, Any]
+    rate: Rate = 0.0  #: Hz; 0: once
+
+
+@dataclass(frozen=True, slots=True)
+class Unpublish:
+    """Publish no more what this page publishes at a rate."""
+
+    types: ClassVar[tuple[str, ...]] = ('unpublish',)
+    id: int
+    topic: str
+
+
+@dataclass(frozen=True, slots=True)
+class ListParameters:
+    """Ask for the parameters of a node: ParameterInfo of each."""
+
+    types: ClassVar[tuple[str, ...]] = ('parameters',)
+    id: int
+    node: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetParameter:
+    """Set a parameter of a node."""
+
+    types: ClassVar[tuple[str, ...]] = ('set_parameter',)
+    id: int
+    node: str
+    name: str
+    kind: str  #: as in ParameterInfo: the value is converted to it
+    value: Any
+
+
+@dataclass(frozen=True, slots=True)
+class SetGoal:
+    """
+    Have a robot navigate to a pose: by its action where there is one, else by its topic of goals.
+
+    Refused while a stop holds the robot, which also cancels the goals that pages gave.
+    """
+
+    types: ClassVar[tuple[str, ...]] = ('set_goal',)
+    id: int
+    robot: str
+    frame: str  #: of TF, by the name that the states have it by
+    x: float  #: m
+    y: float
+    yaw: float  #: rad
+
+
+@dataclass(frozen=True, slots=True)
+class CancelGoal:
+    """Cancel the goal that a page, this or another one, gave to a robot."""
+
+    types: ClassVar[tuple[str, ...]] = ('cancel_goal',)
+    id: int
+    robot: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetInitialPose:
+    """Tell who localises a robot where it is, as RViz does: about 0.5 m and 15 degrees."""
+
+    types: ClassVar[tuple[str, ...]] = ('set_initial_pose',)
+    id: int
+    robot: str
+    frame: str  #: of TF, by the name that the states have it by
+    x: float  #: m
+    y: float
+    yaw: float  #: rad
+
+
+type SimulatorRequest = (
+    Play | Step | ResetSimulation | SetFactor | Spawn | LoadWorld | Place | ResetEntity | Delete
+)
+"""What a simulator is asked."""
+type Request = (
+    SimulatorRequest
+    | Switch
+    | DeactivateDrive
+    | Definition
+    | Publish
+    | Unpublish
+    | ListParameters
+    | SetParameter
+    | SetGoal
+    | CancelGoal
+    | SetInitialPose
+)
+"""Messages with an ``id``, which get a reply."""
+type ClientMessage = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request
+"""A text frame from a page."""
+
+REQUESTS = (
+    Play,
+    Step,
+    ResetSimulation,
+    SetFactor,
+    Spawn,
+    LoadWorld,
+    Place,
+    ResetEntity,
+    Delete,
+    Switch,
+    DeactivateDrive,
+    Definition,
+    Publish,
+    Unpublish,
+    ListParameters,
+    SetParameter,
+    SetGoal,
+    CancelGoal,
+    SetInitialPose,
+)
+MESSAGES = (Drive, Stop, PressStop, Release, SetJoints, Push, Watch, *REQUESTS)
 _BY_TYPE = {name: message for message in MESSAGES for name in message.types}
 
 
@@ -162,9 +410,9 @@ def decode(frame: str) -> ClientMessage:
         known = ', '.join(_BY_TYPE)
         raise ProtocolError(f'a frame of type {_show(kind)} is not known; there are: {known}')
     values = {
-        field.name: _value(found, field.name, _READERS[field.type], kind)
-        for field in fields(message)
-        if field.name in found or field.default is MISSING
+        each.name: _value(found, each.name, _READERS[each.type], kind)
+        for each in fields(message)
+        if each.name in found or each.default is each.default_factory is MISSING
     }
     return message(**values)
 
@@ -192,6 +440,22 @@ def _number(value: Any) -> float:
 
 def _speed(value: Any) -> float:
     if abs(value := _number(value)) > _FASTEST:
+        raise ValueError
+    return value
+
+
+def _rate(value: Any) -> float:
+    if not 0.0 <= (value := _number(value)) <= _HIGHEST_RATE:
+        raise ValueError
+    return value
+
+
+def _any(value: Any) -> Any:
+    return value
+
+
+def _object(value: Any) -> dict[str, Any]:
+    if not isinstance(value, dict):
         raise ValueError
     return value
 
@@ -229,6 +493,21 @@ def _numbers(value: Any) -> dict[str, float]:
     return {_text(key): _number(each) for key, each in value.items()}
 
 
+def _paths(value: Any) -> dict[str, tuple[str, ...]]:
+    if not isinstance(value, dict) or len(value) > MOST_TOPICS:
+        raise ValueError
+    paths = {_text(key): _texts(each) for key, each in value.items()}
+    if sum(map(len, paths.values())) > MOST_FIELDS:
+        raise ValueError
+    return paths
+
+
+def _document_or_none(value: Any) -> str | None:
+    if value is not None and not isinstance(value, str):
+        raise ValueError
+    return value
+
+
 def _text_or_none(value: Any) -> str | None:
     return None if value is None else _text(value)
 
@@ -242,10 +521,15 @@ _READERS: Mapping[Any, Callable[[Any], Any]] = {
     int: _whole,
     float: _number,
     Speed: _speed,
+    Rate: _rate,
+    Any: _any,
+    Mapping[str, Any]: _object,
     str | None: _text_or_none,
+    Document | None: _document_or_none,
     Vector: _vector,
     tuple[str, ...]: _texts,
     tuple[Part, ...]: _parts,
     Mapping[str, float]: _numbers,
+    Mapping[str, tuple[str, ...]]: _paths,
 }
 """By the type of a field."""

@@ -1,13 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The binary frames of sensors: a sample as ``web/src/protocol.ts`` defines it.
+The binary frames of samples: what came by a topic, little-endian, for the pages that show it. A
+page that is slow gets the newest of each topic, and of ``values`` all, up to a bound.
 
 ::
 
-    0  u8 2 │ 1  u8 0 │ 2  u16 bytes of the head │ 4  head, JSON │ …  what it says
-
-The head is filled up with spaces, so that what follows it is aligned to 4 bytes.
+    0  u8   2, the kind of the frame
+    1  u8   0
+    2  u16  bytes of the head: it ends at a multiple of 8 bytes
+    4  …    the head: JSON, one of the types of ``Head``, filled up with spaces
+    …       what the head says
 """
 
 from collections.abc import Iterable
@@ -16,7 +19,7 @@ import struct
 
 import numpy as np
 
-from amr_description.viewer.protocol import encode, Head
+from amr_description.viewer.protocol import Channel, encode, Head
 
 SAMPLE_KIND = 2
 HEAD_AT = 4
@@ -24,15 +27,19 @@ HEAD_AT = 4
 PLACE_FLOATS = 6
 """Of a place of contact: x y z (m), and the normal."""
 _BEGINNING = struct.Struct('<BBH')
+_ALIGNMENT = 8
 _LONGEST_HEAD = 2**16 - 4
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A frame for the pages that show a topic."""
+    """A frame for the pages that show a topic in this way."""
 
     topic: str
     frame: bytes
+    channel: Channel = 'sensor'
+    is_lasting: bool = False
+    """Whether it is sent again only when it has changed, as a map is."""
 
 
 def encode_sample(head: Head, parts: Iterable[np.ndarray | bytes] = ()) -> bytes:
@@ -41,13 +48,13 @@ def encode_sample(head: Head, parts: Iterable[np.ndarray | bytes] = ()) -> bytes
 
     Args:
         head: What it is.
-        parts: What follows: float32, uint8, or the bytes of a file.
+        parts: What follows: float64, float32, uint8, or the bytes of a file.
 
     Raises:
         ValueError: The head is longer than 65532 bytes.
     """
     text = encode(head).encode()
-    text += b' ' * (-len(text) % 4)
+    text += b' ' * (-(HEAD_AT + len(text)) % _ALIGNMENT)
     if len(text) > _LONGEST_HEAD:
         raise ValueError(f'a head of {len(text)} bytes is too long')
     after = [part if isinstance(part, bytes) else part.tobytes() for part in parts]

@@ -3,8 +3,9 @@
 """
 The server: one port for the page and its WebSocket, and an asyncio loop in a thread of its own.
 
-:meth:`Server.start`, :meth:`Server.publish`, :meth:`Server.retain`, :meth:`Server.call` and
-:meth:`Server.stop` may be called on any thread; everything else runs on the server's thread.
+:meth:`Server.start`, :meth:`Server.publish`, :meth:`Server.send_to`, :meth:`Server.retain`,
+:meth:`Server.call` and :meth:`Server.stop` may be called on any thread; everything else runs on
+the server's thread.
 """
 
 import asyncio
@@ -26,22 +27,24 @@ from amr_description.viewer.access import Access, is_loopback, TOKEN_PARAMETER
 from amr_description.viewer.backend import Backend
 from amr_description.viewer.drive_lock import DRIVE_TIMEOUT
 from amr_description.viewer.http import HttpFiles, StaticFiles
+from amr_description.viewer.pages import MOST_PAGES, Page, Pages
 from amr_description.viewer.protocol import (
+    Commanders,
     Hello,
     Layout,
+    PROTOCOL,
     ServerMessage,
     SimulationStatus,
-    SUBPROTOCOL,
 )
-from amr_description.viewer.requests import decode
-from amr_description.viewer.sessions import MessageRouter, MOST_PAGES, Page, Pages
+from amr_description.viewer.requests import decode, Part
+from amr_description.viewer.sessions import MessageRouter
 
 STATIC = Path(__file__).parent / 'static'
 DEFAULT_HOST = '127.0.0.1'
 _PORTS = 20
 """How many more ports are tried if the first is taken."""
-_LARGEST_FRAME = 64 * 1024
-"""Bytes of a frame from a page; 1000 sliders need half of it."""
+_LARGEST_FRAME = 1024 * 1024
+"""Bytes of a frame from a page: descriptions of robots that people have are smaller."""
 _OPEN_TIMEOUT = 20.0
 """s for a request and its response, which may be a large mesh."""
 _MOST_IDLE = 64
@@ -101,10 +104,13 @@ class Server:
         self._loop = asyncio.new_event_loop()
         self._loop.set_exception_handler(self._on_exception)
         self._stopping = asyncio.Event()
+        self._has_ended = False
         self._states: asyncio.TimerHandle | None = None
         """The next call of :meth:`_send_state`; None: there are no pages."""
         self._idle: dict[ServerConnection, None] = {}
-        self._router = MessageRouter(backend, self._pages, log_error)
+        self._is_open = False
+        """Whether the backend is connected with the graph."""
+        self._router = MessageRouter(backend, self._pages, log_error, self._close_if_idle)
         self._thread = threading.Thread(target=self._run, name='viewer')
 
     @property
@@ -134,6 +140,14 @@ class Server:
         """Call :meth:`Pages.publish`; on the server's thread."""
         self._pages.publish(subject, message)
 
+    def send_now(self, message: ServerMessage) -> None:
+        """Call :meth:`Pages.send_message`; on the server's thread."""
+        self._pages.send_message(message)
+
+    def send_to(self, part: Part, message: ServerMessage) -> None:
+        """Call :meth:`Pages.send_to` on the server's thread."""
+        self.call(lambda: self._pages.send_to(part, message))
+
     def retain(self, subjects: list[str]) -> None:
         """Call :meth:`Pages.retain` on the server's thread."""
         self.call(lambda: self._pages.retain(subjects))
@@ -141,14 +155,20 @@ class Server:
     def call(self, callback: Callable[[], object]) -> None:
         """Call something on the server's thread soon, unless it has ended."""
         if not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(callback)
+            self._loop.call_soon_threadsafe(self._unless_ended, callback)
 
     # --- on the server's thread ------------------------------------------------------------------
+
+    def _unless_ended(self, callback: Callable[[], object]) -> None:
+        """Call something, unless a task that it might start would never be done."""
+        if not self._has_ended:
+            callback()
 
     def _run(self) -> None:
         try:
             self._loop.run_until_complete(self._serve())
         finally:
+            self._has_ended = True
             self._loop.run_until_complete(_cancel_tasks())
             self._loop.run_until_complete(self._loop.shutdown_default_executor())
             self._loop.close()
@@ -160,7 +180,7 @@ class Server:
         server = await serve(
             self._serve_page,
             sock=self._socket,
-            subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
+            subprotocols=[PROTOCOL],  # type: ignore[list-item]
             compression=None,
             process_request=self._http.respond,
             server_header=None,
@@ -174,6 +194,7 @@ class Server:
         )
         await self._stopping.wait()
         self._stop_states()
+        self._router.stops.end()
         self._router.stop_all()
         server.close(code=CloseCode.SERVICE_RESTART, reason='the viewer has ended')
         for connection in [*self._idle]:
@@ -205,8 +226,10 @@ class Server:
 
     def _connect(self, page: Page) -> None:
         settings = self._settings
-        if not len(self._pages):
+        if not self._is_open:
+            self._is_open = True
             self._backend.open()
+        if not len(self._pages):
             self._start_states()
         hello = Hello(page.name, settings.version, settings.domain, settings.rate, DRIVE_TIMEOUT)
         self._pages.add(page, hello)
@@ -216,6 +239,12 @@ class Server:
         self._router.disconnect(page)
         if not len(self._pages):
             self._stop_states()
+            self._close_if_idle()
+
+    def _close_if_idle(self) -> None:
+        """Disconnect from the graph, unless there are pages or robots that STOP holds."""
+        if self._is_open and not len(self._pages) and not self._router.stops.is_engaged:
+            self._is_open = False
             self._backend.close()
             self._pages.clear_latched()
 
@@ -237,7 +266,7 @@ class Server:
                 self._publish_message(message)
             if state is not None:
                 self._pages.send_state(state)
-            if self._router.topics:
+            if self._router.shows_topics:
                 self._pages.send_samples(self._backend.take_samples(self._pages.wanted))
         except Exception as error:
             self._log_error(f'no more states are sent: {type(error).__name__}: {error}')
@@ -251,6 +280,8 @@ class Server:
                 self._pages.publish('', message)
             case SimulationStatus():
                 self._pages.publish(message.simulator, message)
+            case Commanders():
+                self._pages.publish(message.robot, message)
             case _:
                 self._pages.send_message(message)
 

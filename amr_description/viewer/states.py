@@ -1,15 +1,28 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The binary frames: a state as ``web/src/protocol.ts`` defines it, filled in place.
+The binary frames of states, little-endian, filled in place. NaN: not known.
 
 ::
 
-    0  u8 1 │ 1  u8 0 │ 2  u16 layout │ 4  u32 number │ 8  f64 time │ 16  f32 …
+     0  u8   1, the kind of the frame
+     1  u8   0
+     2  u16  id of the layout
+     4  u32  number of the state, one more for each, so that gaps can be detected
+     8  f64  time, s, of /clock if it is published, else of the system
+    16  f32  …
 
-The f32 values are the pose of each frame (7), then for each robot: joint positions, joint
-velocities, commanded joint velocities, odometry (10), ground truth (10), command (3), and 4 per
-wheel. NaN: not known.
+The f32 values are: for each frame of the layout its pose in its parent (x y z qx qy qz qw); then
+for each robot of the layout
+
+::
+
+    position of each joint, then the velocity of each,
+    then the commanded velocity of each                        3 × joints
+    odometry: x y z qx qy qz qw, linear x, angular z, linear y 10, in the frame of the message
+    ground truth: the same                                     10, in `world`
+    command: linear x, angular z, linear y                     3, the latest on the command topic
+    wheels: contact, normal force, slip along, slip across     4 × wheels, see ``Watch``
 """
 
 from dataclasses import dataclass
@@ -19,8 +32,9 @@ import numpy as np
 
 from amr_description.viewer.protocol import Layout, RobotLayout
 
-HEADER = struct.Struct('<BBHId')
-KIND = 1
+_HEADER = struct.Struct('<BBHId')
+HEADER_BYTES = _HEADER.size
+STATE_KIND = 1
 POSE_FLOATS = 7
 JOINT_FLOATS = 3
 MOTION_FLOATS = 10
@@ -54,8 +68,8 @@ class StateFrame:
         self.layout = layout
         count = sum(map(_size, layout.robots))
         size = POSE_FLOATS * len(layout.frames) + count
-        self._data = bytearray(HEADER.size + 4 * size)
-        floats = np.frombuffer(self._data, np.dtype('<f4'), offset=HEADER.size)
+        self._data = bytearray(HEADER_BYTES + 4 * size)
+        floats = np.frombuffer(self._data, np.dtype('<f4'), offset=HEADER_BYTES)
         floats.fill(np.nan)
         end = POSE_FLOATS * len(layout.frames)
         self.poses: Floats = floats[:end].reshape(-1, POSE_FLOATS)
@@ -67,7 +81,7 @@ class StateFrame:
 
     def encode(self, number: int, time: float) -> bytes:
         """Return the frame as bytes; ``number`` counts states, ``time`` is in s."""
-        HEADER.pack_into(self._data, 0, KIND, 0, self.layout.id, number % _NUMBERS, time)
+        _HEADER.pack_into(self._data, 0, STATE_KIND, 0, self.layout.id, number % _NUMBERS, time)
         return bytes(self._data)
 
 

@@ -11,15 +11,12 @@ export function announce(store: Store): HTMLElement {
   const live = h('div', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
   const toasts = h('div', { class: 'toasts' });
   let announced = store.notices[0];
-  let count = announced?.count ?? 0;
 
   store.watch(['notice'], () => {
     const [latest] = store.notices;
-    if (latest !== undefined && (latest !== announced || latest.count !== count)) {
-      const repeated = latest === announced;
+    if (latest !== undefined && latest !== announced) {
       announced = latest;
-      count = latest.count;
-      if (repeated) {
+      if (latest.count > 1) {
         toasts.firstElementChild?.remove();
       }
       toasts.prepend(toast(latest.level, latest.text));

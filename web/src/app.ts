@@ -1,6 +1,7 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** What every part of the page is given, and what a part is. */
+import type { Channels } from './channels';
 import type { Asked, Connection } from './connection';
 import type { Pilot } from './drive/pilot';
 import type { Part } from './protocol';
@@ -11,6 +12,7 @@ export interface App {
   store: Store;
   connection: Connection;
   pilot: Pilot;
+  channels: Channels;
 }
 
 /** A part of the page with a title; it gets states only while it is visible. */

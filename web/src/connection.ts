@@ -3,6 +3,7 @@
 /** The WebSocket to the node: opens it, and opens it again when it closed. */
 import { PROTOCOL } from './protocol';
 import type { ClientMessage, Reply, Request, ServerMessage } from './protocol';
+import { WorkerSocket } from './socket/worker_socket';
 
 const FIRST_WAIT = 250; // ms until the first new attempt
 const LONGEST_WAIT = 4000; // ms
@@ -17,11 +18,16 @@ export type Link =
 /** A request before it has its number. */
 export type Asked = Request extends infer R ? (R extends Request ? Omit<R, 'id'> : never) : never;
 
-/** What is used of a WebSocket. */
-export type Socket = Pick<
-  WebSocket,
-  'binaryType' | 'readyState' | 'send' | 'onopen' | 'onclose' | 'onmessage'
->;
+/** What is used of a WebSocket, which a worker holds. */
+export interface Socket {
+  readonly isOpen: boolean;
+  onOpen: () => void;
+  onClose: (reason: string) => void;
+  onMessage: (data: string | ArrayBuffer) => void;
+  /** A text frame; a `drive` is repeated until the next one, a `stop`, or {@link rest}. */
+  send(text: string): void;
+  rest(): void;
+}
 
 /** What a connection needs of the world outside. */
 export interface ConnectionPort {
@@ -30,14 +36,12 @@ export interface ConnectionPort {
 }
 
 const BROWSER: ConnectionPort = {
-  open: (url, protocol) => new WebSocket(url, protocol),
+  open: (url, protocol) => new WorkerSocket(url, protocol),
   after: (milliseconds, call) => {
     const timer = setTimeout(call, milliseconds);
     return () => clearTimeout(timer);
   },
 };
-
-const OPEN = 1; // WebSocket.OPEN, which Node.js 20 does not have
 
 export class Connection {
   link: Link = { state: 'connecting' };
@@ -62,23 +66,27 @@ export class Connection {
     this.cancelRetry = null;
     this.tell({ state: 'connecting' });
     const socket = this.port.open(this.url, PROTOCOL);
-    socket.binaryType = 'arraybuffer';
-    socket.onopen = () => {
+    socket.onOpen = () => {
       this.attempt = 0;
       this.tell({ state: 'open' });
     };
-    socket.onmessage = (event) => this.receive(event.data);
-    socket.onclose = (event) => this.closed(event.reason);
+    socket.onMessage = (data) => this.receive(data);
+    socket.onClose = (reason) => this.closed(reason);
     this.socket = socket;
   }
 
   /** Whether the message could be given to the socket. */
   send(message: ClientMessage): boolean {
-    if (this.socket === null || this.socket.readyState !== OPEN) {
+    if (this.socket?.isOpen !== true) {
       return false;
     }
     this.socket.send(JSON.stringify(message));
     return true;
+  }
+
+  /** A `drive` that was sent is not repeated any more. */
+  rest(): void {
+    this.socket?.rest();
   }
 
   /** Ask the node for something. The reply always comes: a lost connection is a reply, too. */
@@ -93,20 +101,20 @@ export class Connection {
         cancel();
         resolve(reply);
       });
-      if (!this.send({ ...asked, id } as Request)) {
+      if (!this.send({ ...asked, id })) {
         this.answer(refusal(id, 'There is no connection to the node.'));
       }
     });
   }
 
-  private receive(data: unknown): void {
-    if (data instanceof ArrayBuffer) {
+  private receive(data: string | ArrayBuffer): void {
+    if (typeof data !== 'string') {
       this.onBinary(data);
-    } else if (typeof data === 'string') {
-      const message = JSON.parse(data) as ServerMessage;
-      if (message.type !== 'reply' || !this.answer(message)) {
-        this.onMessage(message);
-      }
+      return;
+    }
+    const message = JSON.parse(data) as ServerMessage;
+    if (message.type !== 'reply' || !this.answer(message)) {
+      this.onMessage(message);
     }
   }
 
@@ -135,7 +143,7 @@ export class Connection {
 }
 
 function refusal(id: number, message: string): Reply {
-  return { type: 'reply', id, ok: false, message };
+  return { type: 'reply', id, ok: false, message, data: null };
 }
 
 /** Where the node of this page listens; a token in the page's address goes with it. */

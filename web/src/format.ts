@@ -4,6 +4,11 @@
 
 export const UNKNOWN = '–';
 
+/** What a robot is called: by its namespace, which is its own; in none by its description. */
+export function robotName({ id, name }: { id: string; name: string }): string {
+  return id === '/' ? name : id.slice(1);
+}
+
 /** A number with so many decimals. */
 export function fixed(value: number | null | undefined, decimals: number): string {
   if (value === null || value === undefined || !Number.isFinite(value)) {
@@ -38,4 +43,14 @@ export function clock(time: number): string {
   const rest = `${String(seconds % 60).padStart(2, '0')}.${tenths % 10}`;
   const head = hours === 0 ? `${minutes}` : `${hours}:${String(minutes).padStart(2, '0')}`;
   return `${head}:${rest}`;
+}
+
+/** A name that is not taken: this one, or its like with the least number from 1 on. */
+export function freeName(taken: readonly string[], wanted = 'robot1'): string {
+  const stem = wanted.replace(/\d+$/, '');
+  let name = wanted;
+  for (let number = 1; taken.includes(name); number += 1) {
+    name = `${stem}${number}`;
+  }
+  return name;
 }

@@ -3,7 +3,8 @@
 /** The line on top: which robot, how the connection stands, the simulator's clock and its keys. */
 import { ask, type App } from './app';
 import { button, h, icon, setText } from './dom';
-import { clock, factor, UNKNOWN } from './format';
+import { ageText } from './freshness';
+import { clock, factor, robotName, UNKNOWN } from './format';
 import type { State } from './state';
 
 const LINKS = {
@@ -15,6 +16,7 @@ const TONES = { connecting: 'warning', open: 'good', waiting: 'error' } as const
 
 export class Header {
   readonly element: HTMLElement;
+  private wasOld = false;
   private readonly link = h('span', { class: 'chip link' });
   private readonly robots = h('select', { 'aria-label': 'Robot' });
   private readonly name = h('span', { class: 'robot-name' });
@@ -45,8 +47,9 @@ export class Header {
     );
     this.robots.addEventListener('change', () => app.store.choose(this.robots.value));
     const theme = button('', actions.flipTheme, { icon: 'theme', title: 'Light or dark' });
-    const panels = button('Panels', actions.openPanels, { icon: 'panels' });
+    const panels = button('Panels', actions.openPanels, { icon: 'panels', title: 'Panels' });
     panels.classList.add('open-panels');
+    panels.setAttribute('aria-label', 'Panels'); // on a narrow page only the icon is seen
     this.element = h(
       'header',
       { class: 'top' },
@@ -63,8 +66,8 @@ export class Header {
     );
     const { store } = app;
     store.watch(['graph', 'robot'], () => this.showRobots());
-    store.watch(['link', 'hello'], () => this.showLink());
-    store.watch(['simulation', 'graph'], () => this.showSimulation());
+    store.watch(['link', 'hello', 'silence'], () => this.showLink());
+    store.watch(['simulation', 'graph', 'silence'], () => this.showSimulation());
   }
 
   pulse(state: State): void {
@@ -72,24 +75,37 @@ export class Header {
   }
 
   private showRobots(): void {
-    const { graph, robot } = this.app.store;
-    const robots = graph?.robots ?? [];
+    const { robots, robot } = this.app.store;
     this.robots.hidden = robots.length < 2;
     this.name.hidden = robots.length >= 2;
-    setText(this.name, robot?.name ?? 'No robot');
+    setText(this.name, robot === null ? 'No robot' : robotName(robot));
     this.robots.replaceChildren(
-      ...robots.map(({ id, name }) =>
-        h('option', { value: id }, id === '/' ? name : `${name} (${id.slice(1)})`),
-      ),
+      ...robots.map((each) => h('option', { value: each.id }, robotName(each))),
     );
     this.robots.value = robot?.id ?? '';
-    document.title = robot === null ? 'amr viewer' : `${robot.name} · amr viewer`;
+    document.title = robot === null ? 'amr viewer' : `${robotName(robot)} · amr viewer`;
+  }
+
+  /** Say when nothing new comes; called ten times a second. */
+  tick(now: number): void {
+    const { store } = this.app;
+    const isPaused = store.simulation !== null && store.simulation.state !== 'playing';
+    const silence = store.freshness.silence(now) ?? 0;
+    const age = silence > 0.5 || !isPaused ? store.freshness.stalenessOfAll(now) : null;
+    // Twice in a row: where the page itself was busy, what has come is dealt with in between.
+    const isOld = age !== null && this.wasOld;
+    this.wasOld = age !== null;
+    if (isOld !== document.body.classList.contains('stale')) {
+      document.body.classList.toggle('stale', isOld);
+    }
+    const stale = isOld && store.link.state === 'open' ? `No data for ${ageText(age)}` : '';
+    store.setSilence(stale);
   }
 
   private showLink(): void {
     const { link, hello } = this.app.store;
-    setText(this.link, LINKS[link.state]);
-    this.link.dataset.tone = TONES[link.state];
+    setText(this.link, this.app.store.silence === '' ? LINKS[link.state] : this.app.store.silence);
+    this.link.dataset.tone = this.app.store.silence === '' ? TONES[link.state] : 'error';
     setText(this.domain, hello === null ? '' : `${hello.client} · domain ${hello.domain}`);
     this.domain.title = hello === null ? '' : `amr_description ${hello.version}`;
   }
@@ -106,7 +122,9 @@ export class Header {
       this.play.setAttribute('aria-label', word);
     }
     this.play.classList.toggle('primary', paused);
-    setText(this.real, paused ? simulation.state : factor(simulation?.real_factor ?? null));
+    const real = this.app.store.silence === '' ? (simulation?.real_factor ?? null) : null;
+    setText(this.real, paused ? simulation.state : factor(real));
+    this.real.classList.toggle('paused', paused);
   }
 
   private playOrPause(): void {

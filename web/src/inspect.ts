@@ -4,6 +4,7 @@
 import type { App } from './app';
 import type { SensorsPanel } from './panels/sensors';
 import type { Recorder } from './plots/recorder';
+import type { NavigationNumbers } from './scene/navigation';
 import type { Scene } from './scene/scene';
 import type { SensorNumbers } from './scene/sensors';
 import type { StateStream } from './stream';
@@ -23,6 +24,7 @@ export interface SceneNumbers {
   extent: number[]; // of the robots near the first one, m: least x, y, z, then greatest
   trails: Record<string, [truth: number, odometry: number]>; // points, by robot
   sensors: Record<string, SensorNumbers>; // by topic
+  navigation: NavigationNumbers;
 }
 
 export interface Inspection {
@@ -80,5 +82,6 @@ function numbersOf(scene: Scene | null): SceneNumbers | null {
         extent: scene.extent(),
         trails: scene.trailSizes(),
         sensors: scene.sensorNumbers(),
+        navigation: scene.navigationNumbers(),
       };
 }

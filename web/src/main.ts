@@ -3,6 +3,8 @@
 /** The page: makes its parts and gives each what comes from the node. */
 import { announce } from './announce';
 import type { App } from './app';
+import { Channels } from './channels';
+import { keepChoice } from './choice';
 import { Connection, socketUrl } from './connection';
 import { h } from './dom';
 import { listenToGamepads } from './drive/gamepad';
@@ -11,13 +13,18 @@ import { DrivePanel } from './drive/panel';
 import { Pilot } from './drive/pilot';
 import { Header } from './header';
 import { inspect } from './inspect';
-import { ControlPanel } from './panels/control';
-import { FramesPanel } from './panels/frames';
-import { HealthPanel } from './panels/health';
-import { JointsPanel } from './panels/joints';
-import { ModelPanel } from './panels/model';
-import { SensorsPanel } from './panels/sensors';
-import { SimulationPanel } from './panels/simulation';
+import { navigationBar } from './navigation/bar';
+import { controlPanel } from './panels/control';
+import { framesPanel } from './panels/frames';
+import { graphPanel } from './panels/graph';
+import { diagnosticsToLookAt, healthPanel } from './panels/health';
+import { jointsPanel } from './panels/joints';
+import { logPanel } from './panels/log';
+import { findingsToLookAt, modelPanel } from './panels/model';
+import { parametersPanel } from './panels/parameters';
+import { sensorsPanel } from './panels/sensors';
+import { simulationPanel } from './panels/simulation';
+import { topicsPanel } from './panels/topics';
 import { PlotsPanel } from './plots/panel';
 import { Recorder } from './plots/recorder';
 import { isSample } from './samples';
@@ -36,13 +43,16 @@ const store = new Store();
 const connection = new Connection(socketUrl(window.location));
 const pilot = new Pilot({
   send: (message) => connection.send(message),
+  rest: () => connection.rest(),
   now: () => performance.now(),
   after: (milliseconds, call) => {
     const timer = setTimeout(call, milliseconds);
     return () => clearTimeout(timer);
   },
 });
-const app: App = { store, connection, pilot };
+const channels = new Channels();
+const app: App = { store, connection, pilot, channels };
+keepChoice(store);
 const recorder = new Recorder((robot) => store.turningJoints(robot));
 const stream = new StateStream(store);
 const watcher = new Watcher(
@@ -52,20 +62,23 @@ const watcher = new Watcher(
 const sensing = new Sensing(store);
 
 const view = new View(app, sensing);
+view.element.append(navigationBar(app, view.scene));
 const drive = new DrivePanel(app);
-const plots = new PlotsPanel(app, recorder);
-const model = new ModelPanel(app);
-const health = new HealthPanel(app);
-const sensors = new SensorsPanel(app, sensing);
+const plots = new PlotsPanel(app, recorder, channels);
+const sensors = sensorsPanel(app, sensing);
 const tabs = new Tabs('tab');
 for (const panel of [
-  model,
-  new JointsPanel(app),
+  modelPanel(app),
+  jointsPanel(app),
   sensors,
-  new FramesPanel(app, () => view.scene?.frames() ?? []),
-  new SimulationPanel(app),
-  new ControlPanel(app),
-  health,
+  framesPanel(app, view.places),
+  simulationPanel(app, () => view.scene),
+  controlPanel(app),
+  healthPanel(app),
+  topicsPanel(app, plots),
+  logPanel(app),
+  parametersPanel(app),
+  graphPanel(app),
 ]) {
   tabs.add(panel);
 }
@@ -80,8 +93,8 @@ document.body.prepend(skip, header.element);
 document.body.append(announce(store));
 
 store.watch(['graph', 'robot', 'model', 'diagnostics'], () => {
-  tabs.setBadge('model', model.toLookAt, 'warning');
-  tabs.setBadge('health', health.toLookAt, 'warning');
+  tabs.setBadge('model', findingsToLookAt(store));
+  tabs.setBadge('health', diagnosticsToLookAt(store));
 });
 store.watch(['graph'], () => recorder.keep((store.graph?.robots ?? []).map(({ id }) => id)));
 store.watch(['reset'], () => recorder.clear());
@@ -89,17 +102,26 @@ store.watch(['driver', 'robot', 'graph'], () => {
   const { driver } = store;
   pilot.setTaken(driver !== null && !driver.me);
 });
+let stopIsDue = false; // it was pressed while there was no connection
+pilot.onUnsent = () => {
+  stopIsDue = true;
+  store.note('error', 'There is no connection: STOP did not reach the node; it is sent as soon as it answers.');
+};
 pilot.onRefused = () => {
-  store.note('warning', `${store.driver?.name} drives; STOP stops it for everybody.`);
+  store.note('warning', `${store.driver?.name} drives; STOP holds every robot, whoever drives.`);
 };
 
-listenToKeys(pilot);
+listenToKeys(pilot, () => pilot.driving || store.isDriven);
 listenToGamepads(pilot, (name) => drive.showPad(name));
 
 connection.onLink = (link) => {
   if (link.state !== 'open') {
     pilot.halt();
     watcher.forget();
+    channels.forget();
+  } else if (stopIsDue) {
+    stopIsDue = false;
+    pilot.stop();
   }
   store.setLink(link);
 };
@@ -112,12 +134,11 @@ connection.onMessage = (message) => {
 connection.onBinary = (buffer) => {
   if (isSample(buffer)) {
     const sample = stream.takeSample(buffer);
-    if (sample !== null) {
+    if (sample !== null && stream.attempt(() => channels.take(sample)) === false) {
       view.applySample(sample);
     }
     return;
   }
-  pilot.keepUp();
   const state = stream.take(buffer);
   if (state !== null) {
     view.apply(state);
@@ -127,12 +148,20 @@ connection.onBinary = (buffer) => {
 
 /** Tell the node what can be seen: at once when it is nothing any more, as timers sleep then. */
 function watch(): void {
-  watcher.show([...tabs.watches, ...view.watches], [...tabs.topics, ...view.topics]);
+  watcher.show({
+    parts: [...tabs.watches, ...view.watches, ...plots.watches],
+    topics: [...tabs.topics, ...view.topics],
+    messages: tabs.watches.includes('topics') ? channels.messages : [], // of the panel topics
+    fields: channels.fields,
+  });
 }
 
 document.addEventListener('visibilitychange', watch);
 setInterval(() => {
   watch();
+  const now = performance.now() / 1000;
+  header.tick(now);
+  drive.tick(now);
   const state = stream.fresh();
   if (state !== null) {
     for (const part of [header, drive, tabs, shell]) {

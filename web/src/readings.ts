@@ -3,7 +3,7 @@
 /** The numbers of a state under their names. */
 import { WHEEL_FLOATS } from './protocol';
 import type { Velocity } from './drive/mixing';
-import type { RobotState, State } from './state';
+import type { RobotState, State, WheelNumbers } from './state';
 
 export const SOURCES = ['command', 'odometry', 'truth'] as const;
 export type Source = (typeof SOURCES)[number];
@@ -36,11 +36,11 @@ export function robotOf(state: State, id: string | undefined): RobotState | null
 /** Velocity as commanded, as odometry has it, or as it truly is; not a number where unknown. */
 export function velocityOf(robot: RobotState, source: Source): Velocity {
   return source === 'command'
-    ? { linear: robot.command[0], angular: robot.command[1], sideways: robot.command[2] }
+    ? { linear: robot.command[0]!, angular: robot.command[1]!, sideways: robot.command[2]! }
     : {
-        linear: robot[source][LINEAR],
-        angular: robot[source][ANGULAR],
-        sideways: robot[source][SIDEWAYS],
+        linear: robot[source][LINEAR]!,
+        angular: robot[source][ANGULAR]!,
+        sideways: robot[source][SIDEWAYS]!,
       };
 }
 
@@ -51,16 +51,17 @@ function layoutOf(state: State, robot: RobotState): { joints: string[]; wheels: 
 export function jointsOf(state: State, robot: RobotState): JointReading[] {
   return layoutOf(state, robot).joints.map((name, index) => ({
     name,
-    position: robot.positions[index],
-    velocity: robot.velocities[index],
-    commanded: robot.commanded[index],
+    position: robot.positions[index]!,
+    velocity: robot.velocities[index]!,
+    commanded: robot.commanded[index]!,
   }));
 }
 
 export function wheelsOf(state: State, robot: RobotState): WheelReading[] {
   const { joints, wheels } = layoutOf(state, robot);
   return wheels.map((name, index) => {
-    const [contact, force, along, across] = robot.wheels.subarray(index * WHEEL_FLOATS);
+    const numbers = robot.wheels.subarray(index * WHEEL_FLOATS, (index + 1) * WHEEL_FLOATS);
+    const [contact, force, along, across] = numbers as unknown as WheelNumbers;
     const speed = robot.velocities[joints.indexOf(name)] ?? Number.NaN;
     return { name, speed, contact: toFlag(contact), force, along, across };
   });

@@ -1,16 +1,14 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/**
- * Where the parts stand: on a desk the plots below the view and the panels beside it; on a phone
- * the view, the driving below it, and the rest in a sheet that slides up.
- */
+/** Puts the parts of the page where its form (see form.ts) has them. */
 import type { App, Panel } from './app';
 import { button, h } from './dom';
+import { formOf, opensPanels, type Form } from './form';
 import { recall, remember } from './remember';
+import { splitter } from './splitter';
 import type { State } from './state';
+import type { Store } from './store';
 import type { Tabs } from './tabs';
-
-const PHONE = '(max-width: 760px)';
 
 interface Parts {
   view: { element: HTMLElement };
@@ -20,66 +18,113 @@ interface Parts {
 }
 
 export interface Shell {
-  openPanels(): void;
+  openPanels: () => void;
   pulse(state: State): void;
 }
 
 export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Shell {
+  const { body } = document;
   const dock = h('div', { class: 'dock' });
+  const bar = splitter('dock', 'Height of the plots');
   const close = button('', () => setSheet(false), { icon: 'close', title: 'Close the panels' });
-  const head = h('div', { class: 'sheet-head' }, h('h2', {}, 'Panels'), close);
-  const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, head, tabs.element);
+  const head = h('div', { class: 'sheet-head' }, close);
+  const title = h('h2', { class: 'unseen' }, 'Panels');
+  const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, title, head, tabs.element);
   const slot: Panel = { id: 'plots', title: 'Plots', element: h('div', { class: 'plots-slot' }) };
   drive.element.id = 'drive';
   drive.element.tabIndex = -1; // where "Skip to driving" leads
+  const driving = h('div', { class: 'driving' }, drive.element);
   tabs.add(slot);
-  document.body.append(view.element, dock, drive.element, sheet);
+  body.append(view.element, dock, driving, sheet);
 
-  const phone = window.matchMedia(PHONE);
   const fold = button('', () => setFolded(!dock.classList.contains('folded')), { kind: 'quiet' });
   plots.element.querySelector('.plot-tools')?.append(fold);
+  let form: Form | null = null;
 
   function setFolded(folded: boolean): void {
     dock.classList.toggle('folded', folded);
-    document.body.classList.toggle('folded', folded);
+    body.classList.toggle('folded', folded);
     fold.textContent = folded ? 'Show' : 'Hide';
     fold.setAttribute('aria-expanded', String(!folded));
     remember('folded', folded ? 'yes' : 'no');
   }
 
   function setSheet(open: boolean): void {
+    const wasFocused = sheet.contains(document.activeElement);
+    body.dataset.sheet = open ? 'open' : 'closed';
     sheet.dataset.sheet = open ? 'open' : 'closed';
-    sheet.inert = phone.matches && !open;
-    if (open) {
-      close.focus();
+    sheet.inert = !open;
+    const opener = document.querySelector<HTMLElement>('.open-panels');
+    opener?.setAttribute('aria-expanded', String(open));
+    if (!open && wasFocused) {
+      opener?.focus();
     }
   }
 
   function settle(): void {
-    (phone.matches ? slot.element : dock).append(plots.element);
-    tabs.setHidden('plots', !phone.matches);
-    setSheet(false);
+    const { innerWidth: width, innerHeight: height } = window;
+    const now = formOf(width, height);
+    if (now === form) {
+      return;
+    }
+    form = now;
+    body.dataset.form = now;
+    (now === 'desk' ? dock : slot.element).append(plots.element);
+    if (now === 'desk') {
+      plots.element.prepend(bar); // in it, as it belongs to that landmark
+    } else {
+      bar.remove();
+    }
+    tabs.setHidden('plots', now === 'desk');
+    tabs.stand(now === 'desk' ? 'vertical' : 'horizontal');
+    setSheet(opensPanels(width, height));
   }
 
-  // A description to look at, as in RViz, has no velocity: the place is for its joints.
-  store.watch(['graph', 'robot', 'controllers'], () => {
-    const { robot, movedJoints } = store;
-    const moves = robot === null || robot.command !== null || robot.odometry !== null;
-    document.body.classList.toggle('still', !moves);
-    document.body.classList.toggle('armed', movedJoints.size > 0); // its joints want a STOP
-    if (robot?.joint_publisher != null || (!moves && movedJoints.size > 0)) {
-      tabs.suggest('joints');
+  store.watch(['graph', 'robot', 'controllers', 'simulation'], () => {
+    const { robot, movedJoints, simulator, simulation } = store;
+    body.classList.toggle('still', isStill(store));
+    body.classList.toggle('armed', movedJoints.size > 0); // its joints want a STOP
+    body.classList.toggle('paused', simulation?.state === 'paused');
+    tabs.setHidden('simulation', robot !== null && simulator === null);
+    tabs.setHidden('control', robot !== null && robot.manager === null);
+    if (robot !== null) {
+      const isNew = tabs.setKind(kindOf(store), hasSliders(store) ? 'joints' : 'model');
+      if (isNew && hasSliders(store)) {
+        setSheet(true); // sliders are what one has come for
+      }
     }
   });
-  phone.addEventListener('change', settle);
+  window.addEventListener('resize', settle);
   setFolded(recall('folded') === 'yes');
   settle();
   return {
-    openPanels: () => setSheet(sheet.dataset.sheet !== 'open'),
+    openPanels: () => {
+      setSheet(sheet.inert);
+      if (!sheet.inert) {
+        close.focus();
+      }
+    },
     pulse: (state) => {
       if (plots.element.querySelector('.charts')?.checkVisibility() === true) {
         plots.pulse?.(state);
       }
     },
   };
+}
+
+/** A description to look at, as in RViz, has no velocity: the place is for its joints. */
+function isStill({ robot }: Store): boolean {
+  return robot !== null && robot.command === null && robot.odometry === null;
+}
+
+/** Whether its joints are what one moves: by joint_state_publisher, or by controllers alone. */
+function hasSliders(store: Store): boolean {
+  const { robot, movedJoints } = store;
+  return robot?.joint_publisher != null || (isStill(store) && movedJoints.size > 0);
+}
+
+/** What one does with such a graph: the panel that was open last is remembered for each kind. */
+function kindOf(store: Store): string {
+  const arm = hasSliders(store) ? 'joints' : 'robot';
+  return store.simulator === null ? arm : `simulated.${arm}`;
 }

@@ -7,11 +7,11 @@ import {
   JOINT_FLOATS,
   MOTION_FLOATS,
   POSE_FLOATS,
+  STATE_KIND,
   WHEEL_FLOATS,
   type Layout,
+  type Vector,
 } from './protocol';
-
-const STATE_KIND = 1;
 
 /** All that moves, at one time. The arrays are views of the frame; NaN is what is not known. */
 export interface State {
@@ -32,6 +32,15 @@ export interface RobotState {
   truth: Float32Array; // the same, in `world`
   command: Float32Array; // linear x (m/s), angular z (rad/s), linear y (m/s)
   wheels: Float32Array; // of each: contact (0, 1), normal force (N), slip along, across (m/s)
+}
+
+/** What the wheels of a state hold, for each: see protocol.ts. */
+export type WheelNumbers = [contact: number, force: number, along: number, across: number];
+
+/** Three numbers, such as a point, of those that stand in threes; not a number where it ends. */
+export function vectorAt(numbers: Float32Array, index: number): Vector {
+  const at = 3 * index;
+  return [numbers[at] ?? NaN, numbers[at + 1] ?? NaN, numbers[at + 2] ?? NaN];
 }
 
 /** A frame that is not of the protocol: a fault of one of the two sides, not of the wire. */

@@ -1,18 +1,27 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The state of the page: the messages of the node, and what the user chose. Written only here. */
+/**
+ * The state of the page: the messages of the node, and what the user chose. Written only here.
+ *
+ * What is read of it in a component, or in an `effect`, is followed: it runs again on each change.
+ * Maps and lists are replaced, never modified.
+ */
+import { batch, effect, signal, untracked, type Signal } from '@preact/signals';
 import type {
-  Controllers, Diagnostics, Graph, Hello, Layout, Model, Notice, RobotInfo, ServerMessage,
-  SimulationStatus, SimulatorInfo, World,
+  Commanders, Controllers, Diagnostics, EmergencyStop, GoalStatus, Graph, Hello, Layout, LogLine, Model, Notice,
+  RobotInfo, ServerMessage, SimulationStatus, SimulatorInfo, Topics, Transforms, World,
 } from './protocol';
 import type { Link } from './connection';
+import { Freshness } from './freshness';
 
 /** What can change; a listener is called for the topics that it subscribed to. */
 export type Topic =
   | 'link' | 'hello' | 'graph' | 'model' | 'world' | 'layout' | 'simulation' | 'reset'
-  | 'controllers' | 'diagnostics' | 'driver' | 'notice' | 'robot' | 'frame' | 'selection';
+  | 'controllers' | 'diagnostics' | 'topics' | 'transforms' | 'log' | 'driver' | 'commanders' | 'stops' | 'goal'
+  | 'silence' | 'notice' | 'robot' | 'frame' | 'selection';
 
 export interface NoticeEntry extends Notice {
+  number: number; // of this entry, which is another one's never
   count: number; // how often it came in a row
   at: Date;
 }
@@ -23,45 +32,182 @@ export interface Selection {
 }
 
 const MOST_NOTICES = 50;
+const NO_STOP: EmergencyStop = { type: 'emergency_stop', client: null, since: null, robots: [] };
+const MOST_LINES = 2000;
 
 export class Store {
-  link: Link = { state: 'connecting' };
-  hello: Hello | null = null;
-  graph: Graph | null = null;
-  layout: Layout | null = null;
-  fixedFrame: string | null = null; // null: the root of the tree
-  selection: Selection | null = null;
-  readonly models = new Map<string, Model>();
-  readonly worlds = new Map<string, World>();
-  readonly simulations = new Map<string, SimulationStatus>();
-  readonly controllers = new Map<string, Controllers>();
-  readonly diagnostics = new Map<string, Diagnostics>();
-  readonly drivers = new Map<string, string | null>();
-  readonly notices: NoticeEntry[] = []; // the latest first
-
-  /** Called with each model and each world, as the scene takes them one by one. */
-  onModel: (model: Model) => void = () => {};
+  /** Called with each world, as the scene takes them one by one. */
   onWorld: (world: World) => void = () => {};
+  /** How old is what is shown. */
+  readonly freshness = new Freshness();
 
-  private chosen: string | null = null;
-  private readonly listeners = new Map<Topic, Set<() => void>>();
+  private lastReason = '';
+  private readonly cells = {
+    link: signal<Link>({ state: 'connecting' }),
+    hello: signal<Hello | null>(null),
+    graph: signal<Graph | null>(null),
+    layout: signal<Layout | null>(null),
+    frame: signal<string | null>(null),
+    selection: signal<Selection | null>(null),
+    robot: signal<string | null>(null), // the chosen one
+    model: byName<Model>(),
+    world: byName<World>(),
+    simulation: byName<SimulationStatus>(),
+    controllers: byName<Controllers>(),
+    diagnostics: byName<Diagnostics>(),
+    driver: byName<string | null>(),
+    commanders: byName<Commanders>(),
+    goal: byName<GoalStatus>(),
+    stops: signal<EmergencyStop>(NO_STOP),
+    silence: signal(''),
+    notice: signal<readonly NoticeEntry[]>([]),
+    topics: signal<Topics | null>(null),
+    transforms: signal<Transforms | null>(null),
+    log: signal<readonly LogLine[]>([]),
+    reset: signal(0), // how often time has jumped back
+  } satisfies Record<Topic, Signal<unknown>>;
 
-  /** Call back on each change of one of the topics, and once now. */
+  get link(): Link {
+    return this.cells.link.value;
+  }
+
+  get hello(): Hello | null {
+    return this.cells.hello.value;
+  }
+
+  get graph(): Graph | null {
+    return this.cells.graph.value;
+  }
+
+  get layout(): Layout | null {
+    return this.cells.layout.value;
+  }
+
+  /** The frame that poses are shown in; null: the root of the tree. */
+  get fixedFrame(): string | null {
+    return this.cells.frame.value;
+  }
+
+  get selection(): Selection | null {
+    return this.cells.selection.value;
+  }
+
+  get models(): ReadonlyMap<string, Model> {
+    return this.cells.model.value;
+  }
+
+  get worlds(): ReadonlyMap<string, World> {
+    return this.cells.world.value;
+  }
+
+  get simulations(): ReadonlyMap<string, SimulationStatus> {
+    return this.cells.simulation.value;
+  }
+
+  get controllers(): ReadonlyMap<string, Controllers> {
+    return this.cells.controllers.value;
+  }
+
+  get diagnostics(): ReadonlyMap<string, Diagnostics> {
+    return this.cells.diagnostics.value;
+  }
+
+  /** Nodes and topics; null: they have not come since somebody looked. */
+  get topics(): Topics | null {
+    return this.cells.topics.value;
+  }
+
+  get transforms(): Transforms | null {
+    return this.cells.transforms.value;
+  }
+
+  /** Lines of /rosout, the oldest first. */
+  get log(): readonly LogLine[] {
+    return this.cells.log.value;
+  }
+
+  get drivers(): ReadonlyMap<string, string | null> {
+    return this.cells.driver.value;
+  }
+
+  /** The stops that are held. */
+  get stops(): EmergencyStop {
+    return this.cells.stops.value;
+  }
+
+  /** What is said when nothing new comes, "No data for 3 s"; empty: it comes. */
+  get silence(): string {
+    return this.cells.silence.value;
+  }
+
+  setSilence(text: string): void {
+    this.cells.silence.value = text;
+  }
+
+  /** Whether STOP holds any robot, or will hold those that come. */
+  get isStopped(): boolean {
+    return this.stops.client !== null || this.stops.robots.length > 0;
+  }
+
+  /** Who commands a robot besides pages; null: not told. */
+  commanders(robot: string): Commanders | null {
+    return this.cells.commanders.value.get(robot) ?? null;
+  }
+
+  /** How the last goal that a page gave to a robot goes; null: none was given. */
+  goal(robot: string): GoalStatus | null {
+    return this.cells.goal.value.get(robot) ?? null;
+  }
+
+  /** Whether anybody drives anything, a page or another node. */
+  get isDriven(): boolean {
+    const others = [...this.cells.commanders.value.values()];
+    return [...this.drivers.values()].some((page) => page !== null) || others.some(({ rate }) => rate > 0);
+  }
+
+  /** The latest first. */
+  get notices(): readonly NoticeEntry[] {
+    return this.cells.notice.value;
+  }
+
+  /**
+   * Call back on each change of one of the topics, and once now, for parts that are no components.
+   * What the call itself reads is not followed.
+   */
   watch(topics: readonly Topic[], call: () => void): void {
-    for (const topic of topics) {
-      const calls = this.listeners.get(topic) ?? new Set();
-      this.listeners.set(topic, calls.add(call));
-    }
-    call();
+    effect(() => {
+      for (const topic of topics) {
+        void this.cells[topic].value;
+      }
+      untracked(call);
+    });
+  }
+
+  /** The robots that are there: one that is only described was deleted, or was never spawned. */
+  get robots(): readonly RobotInfo[] {
+    return (this.graph?.robots ?? []).filter(({ present }) => present);
+  }
+
+  /** The robot that a frame is of: the one whose namespace stands before its name, else the shown one. */
+  robotOf(frame: string): string | null {
+    const own = this.robots.find(({ id }) => frame.startsWith(`${id.slice(1)}/`));
+    return own?.id ?? this.robot?.id ?? null;
+  }
+
+  /** The robot that another one is made like: the shown one, else one that is described. */
+  get pattern(): RobotInfo | null {
+    const described = this.graph?.robots.filter(({ id }) => this.models.has(id)) ?? [];
+    const drawn = described.find(({ id }) => isDrawn(this.models.get(id)));
+    return this.robot ?? drawn ?? null;
   }
 
   /**
    * The robot that the panels show and the keys drive: the chosen one while it is there, else the
-   * first that can be driven. (A fleet has a description of its own, of where its robots stand.)
+   * first that can be driven.
    */
   get robot(): RobotInfo | null {
-    const robots = this.graph?.robots ?? [];
-    const chosen = robots.find(({ id }) => id === this.chosen);
+    const { robots } = this;
+    const chosen = robots.find(({ id }) => id === this.cells.robot.value);
     return chosen ?? robots.find(({ command }) => command !== null) ?? robots[0] ?? null;
   }
 
@@ -77,6 +223,14 @@ export class Store {
   /** Status of the simulator; null while there is none, or none was received. */
   get simulation(): SimulationStatus | null {
     return this.simulator === null ? null : (this.simulations.get(this.simulator.id) ?? null);
+  }
+
+  /** The name of a robot in the simulator's world; null: it is not known to be there. */
+  entityOf(robot: string): string | null {
+    const entities = this.simulator?.entities ?? [];
+    const name = this.graph?.robots.find(({ id }) => id === robot)?.name;
+    const found = entities.find((each) => each === robot.slice(1) || each === name);
+    return found ?? (entities.length === 1 ? entities[0]! : null);
   }
 
   get model(): Model | null {
@@ -118,76 +272,97 @@ export class Store {
     return new Map(pairs as [string, string][] | undefined);
   }
 
+  /** The robot that was chosen, which need not be there; null: none was. */
+  get chosen(): string | null {
+    return this.cells.robot.value;
+  }
+
   choose(robot: string): void {
-    this.chosen = robot;
-    this.tell('robot');
+    this.cells.robot.value = robot;
   }
 
   setLink(link: Link): void {
-    this.link = link;
-    this.tell('link');
+    const before = this.lastReason;
+    if (link.state === 'waiting' && link.attempt === 1) {
+      this.lastReason = link.reason;
+    }
+    // Why the connection was lost says more than why the next attempt has failed.
+    const isRetry = link.state === 'waiting' && link.attempt > 1 && this.hello !== null;
+    this.cells.link.value = isRetry ? { ...link, reason: before } : link;
   }
 
   setFixedFrame(name: string | null): void {
-    this.fixedFrame = name;
-    this.tell('frame');
+    this.cells.frame.value = name;
   }
 
   select(selection: Selection | null): void {
-    this.selection = selection;
-    this.tell('selection');
+    this.cells.selection.value = selection;
   }
 
   /** Show the user a notice; equal ones in a row are counted. */
   note(level: Notice['level'], text: string): void {
-    const [latest] = this.notices;
-    if (latest !== undefined && latest.text === text && latest.level === level) {
-      latest.count += 1;
-      latest.at = new Date();
-    } else {
-      this.notices.unshift({ type: 'notice', level, text, count: 1, at: new Date() });
-      this.notices.length = Math.min(this.notices.length, MOST_NOTICES);
-    }
-    this.tell('notice');
+    const before = this.cells.notice.peek();
+    const [latest, ...older] = before;
+    const isSame = latest !== undefined && latest.text === text && latest.level === level;
+    const count = isSame ? latest.count + 1 : 1;
+    const number = isSame ? latest.number : (latest?.number ?? 0) + 1;
+    const entry: NoticeEntry = { type: 'notice', level, text, number, count, at: new Date() };
+    this.cells.notice.value = [entry, ...(isSame ? older : before)].slice(0, MOST_NOTICES);
   }
 
   clearNotices(): void {
-    this.notices.length = 0;
-    this.tell('notice');
+    this.cells.notice.value = [];
   }
 
   /** Handle a message of the node. Unknown types are of a newer node, and ignored. */
   take(message: ServerMessage): void {
+    batch(() => this.handle(message));
+  }
+
+  private handle(message: ServerMessage): void {
+    const { cells } = this;
     switch (message.type) {
       case 'hello':
         return this.begin(message);
       case 'graph':
         return this.setGraph(message);
       case 'model':
-        this.models.set(message.robot, message);
-        this.onModel(message);
-        return this.tell('model');
+        return put(cells.model, message.robot, message);
       case 'world':
-        this.worlds.set(message.simulator, message);
-        this.onWorld(message);
-        return this.tell('world');
+        put(cells.world, message.simulator, message);
+        return this.onWorld(message);
       case 'layout':
-        this.layout = message;
-        return this.tell('layout');
+        cells.layout.value = message;
+        return;
       case 'simulation':
-        this.simulations.set(message.simulator, message);
-        return this.tell('simulation');
+        return put(cells.simulation, message.simulator, message);
       case 'reset':
-        return this.tell('reset');
+        cells.reset.value += 1;
+        return;
       case 'controllers':
-        this.controllers.set(message.robot, message);
-        return this.tell('controllers');
+        return put(cells.controllers, message.robot, message);
       case 'diagnostics':
-        this.diagnostics.set(message.robot, message);
-        return this.tell('diagnostics');
+        return put(cells.diagnostics, message.robot, message);
       case 'driver':
-        this.drivers.set(message.robot, message.client);
-        return this.tell('driver');
+        return put(cells.driver, message.robot, message.client);
+      case 'commanders':
+        return put(cells.commanders, message.robot, message);
+      case 'goal':
+        return put(cells.goal, message.robot, message);
+      case 'emergency_stop':
+        cells.stops.value = message;
+        return;
+      case 'ages':
+        this.freshness.take(message, performance.now() / 1000);
+        return;
+      case 'topics':
+        cells.topics.value = message;
+        return;
+      case 'transforms':
+        cells.transforms.value = message;
+        return;
+      case 'log':
+        return this.addLines(message.lines);
       case 'reply':
         return message.ok ? undefined : this.note('error', message.message);
       case 'notice':
@@ -195,14 +370,27 @@ export class Store {
     }
   }
 
+  /** Add lines that are not there yet: who looks again gets the last warnings again. */
+  private addLines(lines: readonly LogLine[]): void {
+    const before = this.cells.log.peek();
+    const last = before.at(-1)?.number ?? 0;
+    const known = new Set(before.map(({ number }) => number));
+    const added = lines.filter(({ number }) => number > last || !known.has(number));
+    const all = [...before, ...added].sort((one, other) => one.number - other.number);
+    this.cells.log.value = all.slice(-MOST_LINES);
+  }
+
   /** A new connection: the node sends everything again, and older messages are void. */
   private begin(hello: Hello): void {
-    const before = this.hello;
-    this.hello = hello;
-    this.setGraph({ type: 'graph', robots: [], simulators: [], hint: null, sensors: [] });
-    this.layout = null;
-    this.tell('layout');
-    this.tell('hello');
+    const before = this.cells.hello.peek();
+    this.cells.hello.value = hello;
+    this.setGraph({ type: 'graph', robots: [], simulators: [], hint: null, sensors: [], navigators: [] });
+    this.cells.layout.value = null;
+    this.cells.stops.value = NO_STOP;
+    this.freshness.take(null, 0);
+    this.cells.topics.value = null;
+    this.cells.transforms.value = null;
+    this.cells.log.value = []; // another node counts anew
     if (before !== null && before.version !== hello.version) {
       const versions = `${before.version} → ${hello.version}`;
       this.note('warning', `The node was updated (${versions}): reload this page to match it.`);
@@ -210,32 +398,44 @@ export class Store {
   }
 
   private setGraph(graph: Graph): void {
-    this.graph = graph;
+    const { cells } = this;
+    cells.graph.value = graph;
     const robots = new Set(graph.robots.map((robot) => robot.id));
     const simulators = new Set(graph.simulators.map((simulator) => simulator.id));
-    for (const map of [this.models, this.controllers, this.diagnostics, this.drivers]) {
-      keep(map, robots);
-    }
-    for (const map of [this.worlds, this.simulations]) {
-      keep(map, simulators);
-    }
-    if (this.selection !== null && !robots.has(this.selection.robot)) {
-      this.selection = null;
-    }
-    this.tell('graph');
-  }
-
-  private tell(topic: Topic): void {
-    for (const call of this.listeners.get(topic) ?? []) {
-      call();
+    retain(cells.model, robots);
+    retain(cells.controllers, robots);
+    retain(cells.diagnostics, robots);
+    retain(cells.driver, robots);
+    retain(cells.commanders, robots);
+    retain(cells.goal, robots);
+    retain(cells.world, simulators);
+    retain(cells.simulation, simulators);
+    const selection = cells.selection.peek();
+    if (selection !== null && !this.robots.some(({ id }) => id === selection.robot)) {
+      cells.selection.value = null;
     }
   }
 }
 
-function keep(map: Map<string, unknown>, names: ReadonlySet<string>): void {
-  for (const name of [...map.keys()]) {
-    if (!names.has(name)) {
-      map.delete(name);
-    }
+/** Whether a description is more than one of frames, such as that of where the robots of a fleet began. */
+function isDrawn(model: Model | undefined): boolean {
+  return model !== undefined && /<visual\b/.test(model.urdf);
+}
+
+type ByName<T> = Signal<ReadonlyMap<string, T>>;
+
+function byName<T>(): ByName<T> {
+  return signal<ReadonlyMap<string, T>>(new Map());
+}
+
+function put<T>(cell: ByName<T>, name: string, value: T): void {
+  cell.value = new Map(cell.peek()).set(name, value);
+}
+
+/** Keep those of these names. */
+function retain<T>(cell: ByName<T>, names: ReadonlySet<string>): void {
+  const kept = [...cell.peek()].filter(([name]) => names.has(name));
+  if (kept.length < cell.peek().size) {
+    cell.value = new Map(kept);
   }
 }

@@ -60,7 +60,7 @@ export class StateStream {
   }
 
   /** Decode a frame; null, and a notice, where it is none. */
-  private attempt<T>(decode: () => T): T | null {
+  attempt<T>(decode: () => T): T | null {
     try {
       return decode();
     } catch (error) {

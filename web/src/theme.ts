@@ -8,7 +8,7 @@ export type Theme = 'light' | 'dark';
 const DARK = window.matchMedia('(prefers-color-scheme: dark)');
 
 /** The theme of the page. */
-export function theme(): Theme {
+function theme(): Theme {
   const chosen = recall('theme');
   return chosen === 'light' || chosen === 'dark' ? chosen : DARK.matches ? 'dark' : 'light';
 }

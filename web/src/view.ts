@@ -1,13 +1,21 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** The view of the scene: its canvas, what is shown in it, and words where nothing can be. */
+import type { Matrix4 } from 'three';
 import type { App } from './app';
 import type { Link } from './connection';
+import { commands } from './commands';
 import { button, h, setText, toggle } from './dom';
-import type { Part } from './protocol';
+import { keycaps } from './drive/keycaps';
+import { robotName } from './format';
+import { showOverflow } from './overflow';
+import type { Model, Part, SensorInfo } from './protocol';
 import type { State } from './state';
+import { acceptUrdf } from './drop';
+import { handsOf } from './hands';
 import { recall, remember } from './remember';
 import type { Sample } from './samples';
+import { Places } from './scene/places';
 import { NoWebGL, Scene } from './scene/scene';
 import type { Sensing } from './sensors/sensing';
 import type { Theme } from './theme';
@@ -18,34 +26,63 @@ const LAYERS = [
   { name: 'trails', label: 'Trails', on: true, title: 'Where the robot went: truth and odometry' },
   { name: 'contacts', label: 'Contacts', on: false, title: 'Load and slip of the wheels' },
   { name: 'collisions', label: 'Collisions', on: false, title: 'Shapes that touch' },
+  { name: 'maps', label: 'Map', on: true, title: 'Maps and costmaps; which ones, Sensors says' },
+  { name: 'paths', label: 'Path', on: true, title: 'Paths of who navigates; which ones, Sensors says' },
   { name: 'grid', label: 'Grid', on: true, title: 'Squares of 1 m' },
 ] as const;
+
+const NOT_SPAWNED =
+  'A robot is described, but the simulator has none: it was deleted, or is not spawned yet. The tab Simulation spawns one.';
 
 export class View {
   readonly element: HTMLElement;
   readonly scene: Scene | null;
+  /** Where frames are, in numbers. */
+  readonly places: Places;
   private whyBlind = '';
   private readonly canvas = h('canvas', {
     class: 'scene',
+    tabindex: 0,
+    role: 'application',
     'aria-label': 'The robot in its world',
+    'aria-describedby': 'view-keys',
   });
+  private readonly keys = h(
+    'p',
+    { class: 'view-keys', id: 'view-keys' },
+    'Shift and arrow keys turn the view, + and − zoom, Home resets it.',
+  );
   private readonly words = h('div', { class: 'view-words' });
-  private readonly hint = h('div', { class: 'view-hint', hidden: true });
+  private readonly hint = h(
+    'div',
+    { class: 'view-hint', hidden: true },
+    'Hold ',
+    ...keycaps('KeyW', 'KeyA', 'KeyS', 'KeyD'),
+    ' or the arrow keys to drive',
+  );
+  private readonly paused = h('div', { class: 'view-paused', hidden: true }, 'Paused: robots stand');
   private following = recall('follow') !== 'no';
 
   constructor(
     private readonly app: App,
     private readonly sensing: Sensing,
   ) {
-    this.element = h('main', { class: 'view', id: 'view' }, this.canvas, this.words, this.hint);
+    const foot = h('div', { class: 'view-foot' }, this.hint, this.paused);
+    this.element = h('main', { class: 'view', id: 'view' }, this.canvas, this.keys, this.words, foot);
     this.scene = this.makeScene();
+    this.places = new Places(app.store, this.scene?.anchors ?? new Map<string, Matrix4>());
     if (this.scene === null) {
       this.canvas.remove();
+      this.keys.remove();
     } else {
-      this.element.append(this.tools(this.scene), legend(app));
+      this.element.append(this.tools(this.scene));
+      foot.append(legend(app));
       this.connect(this.scene);
     }
     app.store.watch(['graph', 'link', 'robot'], () => this.showWords());
+    app.store.watch(['graph', 'simulation'], () => {
+      this.paused.hidden = app.store.simulation?.state !== 'paused';
+    });
   }
 
   /** What is shown of the parts that come only on demand. */
@@ -55,7 +92,10 @@ export class View {
 
   /** The topics of sensors that are drawn. */
   get topics(): readonly string[] {
-    return this.scene === null ? [] : this.sensing.inScene.map(({ topic }) => topic);
+    const { scene } = this;
+    const isHidden = ({ kind }: SensorInfo): boolean =>
+      (kind === 'map' && scene?.shows('maps') === false) || (kind === 'path' && scene?.shows('paths') === false);
+    return scene === null ? [] : this.sensing.inScene.filter((each) => !isHidden(each)).map(({ topic }) => topic);
   }
 
   /** Show a sample. */
@@ -68,7 +108,11 @@ export class View {
 
   /** Show a state. */
   apply(state: State): void {
-    this.scene?.applyState(state);
+    if (this.scene === null) {
+      this.places.update(state); // from the first state on: there odometry and truth agree
+    } else {
+      this.scene.applyState(state);
+    }
   }
 
   setTheme(theme: Theme): void {
@@ -90,11 +134,18 @@ export class View {
 
   private connect(scene: Scene): void {
     const { store } = this.app;
-    const shown = new Set<string>();
+    const shown = new Map<string, Model>();
     store.watch(['model', 'graph'], () => {
-      for (const id of [...shown].filter((robot) => !store.models.has(robot))) {
+      const present = new Set(store.robots.map(({ id }) => id));
+      for (const id of [...shown.keys()].filter((one) => !present.has(one) || !store.models.has(one))) {
         scene.removeRobot(id);
         shown.delete(id);
+      }
+      for (const [id, model] of store.models) {
+        if (present.has(id) && shown.get(id) !== model) {
+          scene.setModel(model);
+          shown.set(id, model);
+        }
       }
     });
     store.watch(['layout'], () => {
@@ -106,10 +157,6 @@ export class View {
     store.watch(['reset'], () => scene.clearTrails());
     this.sensing.onChange = () => scene.retainSensors(new Set(this.sensing.latest.keys()));
     store.watch(['robot', 'graph'], () => this.follow(scene));
-    store.onModel = (model) => {
-      scene.setModel(model);
-      shown.add(model.robot);
-    };
     store.onWorld = (world) => scene.setWorld(world);
     store.watch(['graph'], () => {
       if (store.worlds.size === 0) {
@@ -117,10 +164,30 @@ export class View {
       }
     });
     scene.onProblem = (text) => store.note('warning', text);
-    scene.onSelect = (robot: string, link: string | null) => {
-      store.choose(robot);
-      store.select({ robot, frame: link });
+    scene.onSelect = (picked) => {
+      if (picked !== null) {
+        store.choose(picked.robot);
+      }
+      store.select(picked);
     };
+    store.watch(['selection', 'model', 'graph'], () => {
+      const { selection } = store;
+      scene.select(selection?.robot ?? null, selection?.frame ?? null);
+    });
+    store.watch(['graph', 'robot', 'model'], () => {
+      scene.setRobots(
+        store.robots.map((each) => ({
+          id: each.id,
+          name: robotName(each),
+          isChosen: each.id === store.robot?.id,
+          drives: each.command !== null,
+        })),
+      );
+    });
+    store.watch(['graph'], () => {
+      scene.hands = handsOf(this.app);
+    });
+    acceptUrdf(this.app, this.element, (x, y) => scene.groundAt(x, y));
     new ResizeObserver(() => scene.resize()).observe(this.canvas);
   }
 
@@ -134,6 +201,14 @@ export class View {
       remember('follow', on ? 'yes' : 'no');
       this.follow(scene);
     }, 'The camera goes with the robot');
+    const toggles = new Map<string, HTMLButtonElement>();
+    const limit = (): void => {
+      const names = toggles.get('frameNames');
+      if (names !== undefined) {
+        names.disabled = !scene.shows('frames');
+        names.title = names.disabled ? 'Names of the frames, where Frames are shown' : 'Names of the frames';
+      }
+    };
     const layers = LAYERS.map(({ name, label, on, title }) => {
       const kept = recall(`show.${name}`);
       const now = kept === null ? on : kept === 'yes';
@@ -141,31 +216,50 @@ export class View {
       const flip = (shown: boolean): void => {
         remember(`show.${name}`, shown ? 'yes' : 'no');
         scene.show({ [name]: shown });
+        limit();
       };
-      return toggle(label, now, flip, title);
+      const element = toggle(label, now, flip, title);
+      toggles.set(name, element);
+      return element;
     });
-    return h(
+    limit();
+    const clear = button('Clear trails', () => scene.clearTrails(), { kind: 'quiet' });
+    const tools = h(
       'div',
       { class: 'view-tools', role: 'toolbar', 'aria-label': 'View' },
       button('Reset view', () => scene.resetView(), { kind: 'quiet' }),
       follow,
       h('span', { class: 'rule', 'aria-hidden': 'true' }),
       ...layers,
-      button('Clear trails', () => scene.clearTrails(), { kind: 'quiet' }),
+      clear,
     );
+    showOverflow(tools);
+    // Where nothing moves, or no wheel is measured, these would do nothing.
+    this.app.store.watch(['graph', 'robot'], () => {
+      const { graph, robots } = this.app.store;
+      const moves = robots.some(({ truth, odometry }) => truth !== null || odometry !== null);
+      for (const element of [toggles.get('trails'), follow, clear]) {
+        element?.toggleAttribute('hidden', graph !== null && !moves);
+      }
+      const measured = robots.some(({ wheels }) => wheels !== null);
+      toggles.get('contacts')?.toggleAttribute('hidden', graph !== null && !measured);
+      for (const [name, kind] of [['maps', 'map'], ['paths', 'path']] as const) {
+        toggles.get(name)?.toggleAttribute('hidden', !this.sensing.here.some((each) => each.kind === kind));
+      }
+    });
+    return tools;
   }
 
   private showWords(): void {
-    const { link, graph, robot } = this.app.store;
+    const { link, graph, robot, robots } = this.app.store;
     const lost = link.state !== 'open';
-    const empty = !lost && graph !== null && graph.robots.length === 0;
+    const empty = !lost && graph !== null && robots.length === 0;
     this.hint.hidden = lost || robot === null || robot.command === null;
-    this.hint.replaceChildren('Hold ', ...keys(), ' or the arrow keys to drive');
     this.words.replaceChildren();
     if (lost) {
       this.sayLost(link);
     } else if (empty) {
-      this.say('Nothing to see yet', graph.hint ?? 'Nobody publishes a robot description.');
+      this.say('No robot', graph.hint ?? NOT_SPAWNED);
     } else if (this.scene === null) {
       this.say('No 3-D view', this.whyBlind);
     }
@@ -174,7 +268,9 @@ export class View {
   private sayLost(link: Link): void {
     if (link.state === 'waiting') {
       const reason = link.reason === '' ? 'The viewer does not answer.' : `${link.reason}.`;
-      const text = `${reason} This page connects again by itself as soon as it does.`;
+      const text =
+        `${reason} If the launch has ended, start it again. ` +
+        'This page connects by itself as soon as there is a viewer.';
       this.say('No connection', text);
     } else {
       this.say('Connecting …', '');
@@ -189,21 +285,10 @@ export class View {
   }
 }
 
-function keys(): HTMLElement[] {
-  return ['W', 'A', 'S', 'D'].map((key) => h('kbd', {}, key));
-}
-
-/** What stands between back-quotes in a text is a command. */
-function commands(text: string): Node[] {
-  return text.split('`').map((part, index) =>
-    index % 2 === 1 ? h('code', {}, part) : document.createTextNode(part),
-  );
-}
-
-/** What the trails are of; those that there are. */
+/** What the trails are of; those that there are. Of several robots each has its own colour. */
 function legend({ store }: App): HTMLElement {
   const entry = (kind: string, word: string): HTMLElement =>
-    h('span', {}, h('i', { class: `swatch ${kind}` }), word);
+    h('span', {}, h('i', { class: `swatch trail ${kind}` }), word);
   const truth = entry('truth', 'Truth');
   const odometry = entry('odometry', 'Odometry');
   const element = h('div', { class: 'view-legend', 'aria-hidden': 'true' }, truth, odometry);
@@ -211,6 +296,7 @@ function legend({ store }: App): HTMLElement {
     truth.hidden = (store.robot?.truth ?? null) === null;
     odometry.hidden = (store.robot?.odometry ?? null) === null;
     element.hidden = truth.hidden && odometry.hidden;
+    element.classList.toggle('of-many', store.robots.length > 1);
   });
   return element;
 }

@@ -39,21 +39,21 @@ test('where there is no room for all, the first ones are written', () => {
   const labels = place(anchors);
   assertApart(labels);
   assert.ok(labels.length > 15 && labels.length < 200, String(labels.length));
-  assert.equal(labels[0].key, 'frame 0');
+  assert.equal(labels[0]!.key, 'frame 0');
 });
 
 test('labels stay within the picture', () => {
-  for (const [x, y] of [[0, 0], [WIDTH, 0], [0, HEIGHT], [WIDTH, HEIGHT], [400, 1]]) {
+  for (const [x, y] of [[0, 0], [WIDTH, 0], [0, HEIGHT], [WIDTH, HEIGHT], [400, 1]] as const) {
     const [label] = place([anchor('corner', x, y)]);
-    assert.ok(label.left >= 0 && label.left + 80 <= WIDTH);
-    assert.ok(label.top >= 0 && label.top + 18 <= HEIGHT);
+    assert.ok(label!.left >= 0 && label!.left + 80 <= WIDTH);
+    assert.ok(label!.top >= 0 && label!.top + 18 <= HEIGHT);
   }
 });
 
 test('labels of a cluster stand outside of it', () => {
   const [left, right] = place([anchor('left', 380, 300), anchor('right', 420, 300)]);
-  assert.ok(left.left + 80 <= 380);
-  assert.ok(right.left >= 420);
+  assert.ok(left!.left + 80 <= 380);
+  assert.ok(right!.left >= 420);
 });
 
 test('a label stays on its side while its point moves a little', () => {
@@ -61,6 +61,13 @@ test('a label stays on its side while its point moves a little', () => {
   const [before] = place([anchor('a', 400, 300), anchor('b', 400, 300)], habits);
   for (let i = 1; i < 20; i++) {
     const [label] = place([anchor('a', 400 + i % 3, 300), anchor('b', 400, 300 + i % 2)], habits);
-    assert.ok(Math.hypot(label.left - before.left - (i % 3), label.top - before.top) < 1e-9);
+    assert.ok(Math.hypot(label!.left - before!.left - (i % 3), label!.top - before!.top) < 1e-9);
   }
+});
+
+test('the name of a robot stands right above it, whatever is about', () => {
+  const robot = { ...anchor('robot', 400, 300), isAbove: true };
+  const [label] = place([robot, anchor('a', 400, 200), anchor('b', 420, 260)]);
+  assert.ok(Math.abs(label!.left + 40 - 400) < 1e-6);
+  assert.ok(label!.top + 18 < 300 && label!.top + 18 > 280);
 });

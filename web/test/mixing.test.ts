@@ -17,7 +17,7 @@ test('arrows are the same as letters, and both at once are no faster', () => {
     ['ArrowDown', 'KeyS'],
     ['ArrowLeft', 'KeyA'],
     ['ArrowRight', 'KeyD'],
-  ]) {
+  ] as const) {
     assert.deepEqual(fromKeys([arrow]), fromKeys([letter]));
     assert.deepEqual(fromKeys([arrow, letter]), fromKeys([letter]));
   }

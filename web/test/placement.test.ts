@@ -18,7 +18,7 @@ function at([x, y, yaw]: Pose): Matrix4 {
 function treeOf(frames: Record<string, Pose | null>): FrameTree {
   const layout: Pick<Layout, 'frames'> = {
     frames: Object.keys(frames).map((key) => {
-      const [name, parent] = key.split(' < ');
+      const [name = '', parent = ''] = key.split(' < ');
       return { name, parent };
     }),
   };
@@ -47,7 +47,7 @@ function assertPose(actual: Matrix4 | null, expected: Matrix4): void {
   assert.ok(actual, 'it has no place');
   actual.elements.forEach((value, i) => {
     assert.ok(
-      Math.abs(value - expected.elements[i]) < 1e-5,
+      Math.abs(value - expected.elements[i]!) < 1e-5,
       `${actual.elements.join(' ')}, not ${expected.elements.join(' ')}`,
     );
   });
@@ -124,7 +124,7 @@ test('the choice of the fixed frame moves the view, not what is in it', () => {
   const between = (fixed: string): Matrix4 => {
     placement.update(tree, [robot], fixed);
     const [world, laser] = [WORLD, 'laser'].map((name) => placement.poseOf(name) as Matrix4);
-    return world.invert().multiply(laser);
+    return world!.invert().multiply(laser!);
   };
   const seen = between(WORLD);
   for (const fixed of ['odom', 'base', 'laser']) {
@@ -181,4 +181,32 @@ test('a robot of one link, unknown to TF, is a frame by itself', () => {
   placement.update(treeOf({}), [robot], 'base');
   assertPose(placement.poseOfBody(robot), new Matrix4());
   assertPose(placement.poseOf('base'), new Matrix4());
+});
+
+test('a map of the world lies where the world does, however its robot was localised at first', () => {
+  const placement = new Placement();
+  const robot = body('base', [3, 2, 0]);
+  placement.update(treeOf({ 'odom < map': [0.4, 0.1, 0.02], 'base < odom': [2.5, 2, 0] }), [robot], WORLD);
+  assert.deepEqual(placement.poseOf('map')?.elements, new Matrix4().elements);
+});
+
+test('a map that begins elsewhere, as that of SLAM, lies where it and the truth agreed', () => {
+  const placement = new Placement();
+  const robot = body('base', [3, 2, 0]);
+  placement.update(treeOf({ 'odom < map': [0, 0, 0], 'base < odom': [0, 0, 0] }), [robot], WORLD);
+  const [x, y] = new Vector3().setFromMatrixPosition(placement.poseOf('map')!).toArray();
+  assert.deepEqual([x, y], [3, 2]);
+});
+
+test('once localisation corrects itself, what it said before is forgotten', () => {
+  const placement = new Placement();
+  const robot = body('base', [5, 2, 0]);
+  const believed = (x: number): FrameTree => treeOf({ 'odom < map': [x, 2, 0], 'base < odom': [1, 0, 0] });
+  const place = (): number => new Vector3().setFromMatrixPosition(placement.poseOf('map')!).x;
+  placement.update(believed(0), [robot], WORLD);
+  assert.equal(place(), 4, 'it believed that it was at 1 m');
+  placement.update(believed(0.1), [robot], WORLD);
+  assert.equal(place(), 4, 'small corrections do not move the map');
+  placement.update(believed(4), [robot], WORLD);
+  assert.equal(place(), 0, 'an initial pose does');
 });

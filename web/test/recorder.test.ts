@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { freeName } from '../src/panels/simulation';
+import { freeName } from '../src/format';
 import {
   FACTOR_COLUMN, Recorder, velocityColumn, wheelColumn,
 } from '../src/plots/recorder';
+import type { Record } from '../src/plots/recorder';
 import { HEADER_BYTES, type Layout } from '../src/protocol';
 import { wheelsOf } from '../src/readings';
 import { decodeState, stateBytes, type State } from '../src/state';
@@ -33,13 +34,17 @@ function state(time: number, layout = LAYOUT): State {
   return decoded;
 }
 
+function firstSample({ history }: Record): number[] {
+  return Array.from({ length: history.columns }, (_, column) => history.at(history.latest, column));
+}
+
 test('each number of a state stands in its column', () => {
   const recorder = new Recorder(() => []);
   recorder.record(state(1.5), 0.9);
   const record = recorder.of('/');
   assert.deepEqual(record?.wheels, ['left', 'right']);
-  const [times, ...columns] = record.history.since(0).map(([first]) => first);
-  assert.equal(times, 1.5);
+  assert.equal(record.history.latest, 1.5);
+  const columns = firstSample(record);
   // 3 positions, velocities and commanded ones, odometry from 9 on, truth from 19 on, command at 29.
   assert.equal(columns[velocityColumn(0, 'linear')], 29);
   assert.equal(columns[velocityColumn(1, 'linear')], 9 + 7);
@@ -51,21 +56,21 @@ test('each number of a state stands in its column', () => {
 });
 
 test('wheels have their joint’s speed, contact, load and slip', () => {
-  const [left, right] = wheelsOf(state(0), state(0).robots[0]);
+  const [left, right] = wheelsOf(state(0), state(0).robots[0]!);
   assert.deepEqual(left, {
     name: 'left', speed: 4, contact: true, force: 33, along: 34, across: 35,
   });
-  assert.equal(right.force, 37);
+  assert.equal(right!.force, 37);
 });
 
 test('where no simulator names wheels, what turns without end is taken for one', () => {
-  const layout = { ...LAYOUT, robots: [{ ...LAYOUT.robots[0], wheels: [] }] };
+  const layout = { ...LAYOUT, robots: [{ ...LAYOUT.robots[0]!, wheels: [] }] };
   const recorder = new Recorder((robot) => (robot === '/' ? ['right', 'gone'] : []));
   recorder.record(state(0, layout), null);
   const record = recorder.of('/');
   assert.deepEqual(record?.wheels, ['right', 'gone']);
-  const columns = record.history.since(0).slice(1).map(([first]) => first);
-  assert.deepEqual(columns.slice(wheelColumn(0, 'measured')), [5, 8, null, null]);
+  const columns = firstSample(record);
+  assert.deepEqual(columns.slice(wheelColumn(0, 'measured')), [5, 8, Number.NaN, Number.NaN]);
 });
 
 test('a robot that went, and time that began anew, leave nothing', () => {
@@ -79,7 +84,32 @@ test('a robot that went, and time that began anew, leave nothing', () => {
   assert.equal(recorder.length, 0);
 });
 
+test('the first second of a simulation has no real-time factor: starting is no fault', () => {
+  const recorder = new Recorder(() => []);
+  recorder.record(state(0.5), 0.1);
+  const factor = () => recorder.series('/', { column: FACTOR_COLUMN });
+  assert.ok(Number.isNaN(factor()?.at(0.5)));
+  recorder.record(state(1.2), 1);
+  assert.equal(factor()?.at(1.2), 1);
+});
+
+test('fields are kept while they are plotted, and what is held stays as it was', () => {
+  const recorder = new Recorder(() => []);
+  const field = { topic: '/odom', path: 'twist.twist.linear.x' };
+  recorder.take(field, 1, 0.5);
+  const held = recorder.hold('/');
+  recorder.take(field, 2, 0.6);
+  assert.equal(held.series('/', field)?.latest, 1);
+  assert.equal(recorder.series('/', field)?.at(2), 0.6);
+  recorder.interrupt();
+  assert.ok(Number.isNaN(recorder.series('/', field)?.at(3)), 'what comes next is no continuation');
+  recorder.keepFields([]);
+  assert.equal(recorder.series('/', field), null);
+});
+
 test('a new robot gets a name that is free', () => {
   assert.equal(freeName([]), 'robot1');
   assert.equal(freeName(['amr', 'robot1', 'robot3']), 'robot2');
+  assert.equal(freeName(['amr'], 'arm'), 'arm');
+  assert.equal(freeName(['arm', 'arm1'], 'arm'), 'arm2');
 });

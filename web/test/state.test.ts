@@ -36,15 +36,15 @@ test('every number stands where the protocol has it', () => {
   assert.equal(state.time, 12.25);
   assert.deepEqual([...state.poses], Array.from({ length: 14 }, (_, i) => i));
   const [one, two] = state.robots;
-  assert.deepEqual([...one.positions], [14, 15]);
-  assert.deepEqual([...one.velocities], [16, 17]);
-  assert.deepEqual([...one.commanded], [18, 19]);
-  assert.deepEqual([one.odometry[0], one.odometry[9]], [20, 29]);
-  assert.deepEqual([one.truth[0], one.truth[9]], [30, 39]);
-  assert.deepEqual([...one.command], [40, 41, 42]);
-  assert.deepEqual([...one.wheels], [43, 44, 45, 46]);
-  assert.equal(two.id, '/two');
-  assert.deepEqual([two.odometry[0], two.truth[0], two.command[1]], [47, 57, 68]);
+  assert.deepEqual([...one!.positions], [14, 15]);
+  assert.deepEqual([...one!.velocities], [16, 17]);
+  assert.deepEqual([...one!.commanded], [18, 19]);
+  assert.deepEqual([one!.odometry[0], one!.odometry[9]], [20, 29]);
+  assert.deepEqual([one!.truth[0], one!.truth[9]], [30, 39]);
+  assert.deepEqual([...one!.command], [40, 41, 42]);
+  assert.deepEqual([...one!.wheels], [43, 44, 45, 46]);
+  assert.equal(two!.id, '/two');
+  assert.deepEqual([two!.odometry[0], two!.truth[0], two!.command[1]], [47, 57, 68]);
 });
 
 test('the last number is the end of the frame: nothing is left, nothing shared', () => {

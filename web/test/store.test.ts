@@ -11,13 +11,13 @@ const HELLO: Hello = {
 
 function robot(id: string): RobotInfo {
   return {
-    id, name: 'amr', command: null, odometry: null, truth: null, wheels: null,
+    id, name: 'amr', present: true, command: null, odometry: null, truth: null, wheels: null,
     joint_states: null, joint_publisher: null, manager: null,
   };
 }
 
 function graph(...ids: string[]): Graph {
-  return { type: 'graph', robots: ids.map(robot), simulators: [], hint: null, sensors: [] };
+  return { type: 'graph', robots: ids.map(robot), simulators: [], hint: null, sensors: [], navigators: [] };
 }
 
 function connected(...ids: string[]): Store {
@@ -49,6 +49,26 @@ test('of several robots, one that can be driven is the first choice', () => {
   assert.equal(store.robot?.id, '/fleet');
 });
 
+test('a robot that is only described is not offered, but another can be made like it', () => {
+  const store = connected();
+  const fleet = { ...robot('/fleet'), present: false };
+  const deleted = { ...robot('/'), present: false };
+  store.take({ ...graph(), robots: [fleet, deleted, robot('/robot1')] });
+  assert.deepEqual(store.robots.map(({ id }) => id), ['/robot1']);
+  store.choose('/');
+  assert.equal(store.robot?.id, '/robot1');
+  store.select({ robot: '/robot1', frame: 'base_link' });
+  store.take({ ...graph(), robots: [fleet, deleted] });
+  assert.equal(store.robot, null);
+  assert.equal(store.selection, null);
+  assert.equal(store.pattern, null, 'its description has not come');
+  const described = { root: 'a', meshes: {}, joints: [], findings: [] };
+  store.take({ type: 'model', robot: '/fleet', urdf: '<robot><link name="a"/></robot>', ...described });
+  assert.equal(store.pattern, null, 'a tree of frames is no robot');
+  store.take({ type: 'model', robot: '/', urdf: '<robot><visual/></robot>', ...described });
+  assert.equal((store.pattern as RobotInfo | null)?.id, '/');
+});
+
 test('what belongs to a robot goes with it', () => {
   const store = connected('/', '/robot1');
   store.take({ type: 'driver', robot: '/robot1', client: 'page 2', stopped: null });
@@ -78,7 +98,7 @@ test('a node that starts anew makes all that an older one said void', () => {
   assert.equal(store.robot, null);
   assert.equal(store.notices.length, 0);
   store.take({ ...HELLO, version: '1.1' });
-  assert.match(store.notices[0].text, /1\.0 → 1\.1.*reload/);
+  assert.match(store.notices[0]!.text, /1\.0 → 1\.1.*reload/);
 });
 
 test('a listener hears its topics, at first and on each change', () => {
@@ -138,12 +158,12 @@ test('notices that repeat are counted, and only the latest are kept', () => {
     store.note('warning', `notice ${number}`);
   }
   assert.equal(store.notices.length, 50);
-  assert.equal(store.notices[0].text, 'notice 199');
+  assert.equal(store.notices[0]!.text, 'notice 199');
 });
 
 test('a refusal becomes a notice, a yes does not', () => {
   const store = new Store();
-  store.take({ type: 'reply', id: 0, ok: true, message: 'yes' });
-  store.take({ type: 'reply', id: 0, ok: false, message: 'page 2 drives' });
+  store.take({ type: 'reply', id: 0, ok: true, message: 'yes', data: null });
+  store.take({ type: 'reply', id: 0, ok: false, message: 'page 2 drives', data: null });
   assert.deepEqual(store.notices.map((notice) => notice.text), ['page 2 drives']);
 });

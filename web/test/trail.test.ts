@@ -6,7 +6,7 @@ import { Trail } from '../src/scene/trail';
 
 /** The x of each point kept. */
 function xs(trail: Trail): number[] {
-  return Array.from({ length: trail.count }, (_, i) => trail.points[3 * i]);
+  return Array.from({ length: trail.count }, (_, i) => trail.points[3 * i]!);
 }
 
 test('a robot that stands leaves one point', () => {
@@ -43,10 +43,10 @@ test('it keeps its beginning, its order and, finely, its end', () => {
     const kept = xs(trail);
     assert.equal(kept[0], 0);
     assert.equal(kept.at(-1), i * 0.125);
-    assert.ok(kept.every((x, at) => at === 0 || x > kept[at - 1]));
+    assert.ok(kept.every((x, at) => at === 0 || x > kept[at - 1]!));
   }
   const end = xs(trail).slice(-8);
-  assert.ok(end.every((x, at) => at === 0 || x - end[at - 1] === 0.125));
+  assert.ok(end.every((x, at) => at === 0 || 0.125 === x - end[at - 1]!));
 });
 
 test('the old part is even: no gap of it is twice as long as most', () => {
@@ -55,7 +55,7 @@ test('the old part is even: no gap of it is twice as long as most', () => {
     trail.add(i * 0.125, 0, 0);
   }
   const kept = xs(trail).slice(0, -17);
-  const gaps = kept.slice(1).map((x, at) => x - kept[at]);
+  const gaps = kept.slice(1).map((x, at) => x - kept[at]!);
   assert.ok(Math.max(...gaps) <= 2 * Math.min(...gaps), String(gaps));
 });
 

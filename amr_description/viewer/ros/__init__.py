@@ -7,14 +7,34 @@ The backend of the page's server for the robots of a ROS graph.
 ``backend.py``          :class:`GraphBackend`: what pages ask, and what they are sent
 ``graph_monitor.py``    watches the graph, and connects to its robots and simulators
 ``robot.py``            the connection to one robot: description, commands; a simulator's world
+``stopping.py``         holds a robot at rest: its lock, zeros for the commands of others
+``command_topic.py``    the command in force, and how often others command
+``pushing.py``          pushes the robots of a simulator
 ``joint_commands.py``   joints that pages move by controllers
+``goals.py``              goals and initial poses that pages give, by topics and the action
+``spawned_robots.py``   description and transforms of robots that pages have spawned
 ``robot_topics.py``     what moves: transforms, joints, odometry, commands, wheels
 ``states.py``           … assembled into the binary states
-``sensors.py``          topics of sensors, subscribed while a page shows them
+``topic_feeds.py``      the topics that pages show, subscribed while they do
+``sensors.py``          … of sensors
+``navigation_samples.py`` … maps and paths as samples
 ``sensor_samples.py``   … converted for the page
+``source.py``           what publishes on a topic, and a subscription that hears all of it
+``newest_feed.py``      a topic of which pages are shown the newest message
+``message_feed.py``     … of any type: the latest message, whole
+``field_feed.py``       … some numbers of each message, for plots
+``topic_rate.py``       how many messages a second come
+``introspection.py``    the graph itself, while a page shows it:
+``topic_list.py``       … nodes, topics and rates
+``transform_list.py``   … the TF tree with rates and ages
+``log_lines.py``        … /rosout; its last warnings are kept
+``publications.py``     what pages publish by forms
+``parameters.py``       parameters of any node, listed and set
+``on_thread.py``        have the ROS thread do something, and wait for it
 ``description.py``      a robot description for the page: joints, meshes, findings
 ``markers.py``          MarkerArray and /diagnostics, converted for the page
 ``service_clients.py``  services of simulators and controller managers
+``world_change.py``     another world around the robots that are there
 ======================  ========================================================================
 
 Subscriptions, publishers and clients are created and destroyed on the ROS thread, and used on the

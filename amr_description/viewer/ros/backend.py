@@ -4,6 +4,7 @@
 
 import asyncio
 from collections.abc import Callable, Coroutine, Mapping, Sequence, Set as AbstractSet
+from dataclasses import replace
 from pathlib import Path
 import time
 from typing import Any
@@ -15,30 +16,64 @@ from visualization_msgs.msg import MarkerArray
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, ViewerError
+from amr_description.model.frames import Vector
+from amr_description.viewer.backend import Answer, Hold, Watched
 from amr_description.viewer.joint_groups import ControllerJoints, joint_groups, with_moves
 from amr_description.viewer.protocol import (
+    Channel,
+    Commanders,
+    ControllerInfo,
     Graph,
+    Notice,
     RobotInfo,
     SensorInfo,
     ServerMessage,
     SimulationStatus,
     World,
 )
-from amr_description.viewer.requests import Part, Request, Spawn, Switch
+from amr_description.viewer.requests import (
+    CancelGoal,
+    DeactivateDrive,
+    Definition,
+    ListParameters,
+    LoadWorld,
+    Part,
+    Publish,
+    Request,
+    SetGoal,
+    SetInitialPose,
+    SetParameter,
+    SimulatorRequest,
+    Spawn,
+    Switch,
+    Unpublish,
+)
+from amr_description.viewer.ros.command_topic import DEFAULT_TIMEOUT
+from amr_description.viewer.ros.goals import Goals
 from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
+from amr_description.viewer.ros.introspection import GraphMessage
 from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
+from amr_description.viewer.ros.parameters import NodeParameters
+from amr_description.viewer.ros.publications import fields_of_type, Publications
 from amr_description.viewer.ros.robot import RobotConnection
 from amr_description.viewer.ros.service_clients import (
-    activate_same_controllers,
+    activate_controllers,
+    active_controllers,
+    command_timeout,
     list_controllers,
     ServiceClients,
     SimulatorClient,
     switch_controllers,
 )
+from amr_description.viewer.ros.spawned_robots import SpawnedRobots
 from amr_description.viewer.ros.states import StateAssembler
+from amr_description.viewer.ros.stopping import lock_topic
+from amr_description.viewer.ros.world_change import change_world, Resident
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server
 
+_NEVER_EXPIRING = 'amr_description/Gazebo'
+"""What types of controllers begin with whose commands are in force until the next one."""
 _REFRESH_PERIOD = 1.0
 """s between two queries of a simulator, or of a controller manager without ``~/activity``."""
 _STATUS_PERIOD = 0.25
@@ -49,20 +84,43 @@ class GraphBackend(GraphObserver):
     """
     Runs on the server's thread, except for the callbacks of :class:`GraphObserver`.
 
-    :attr:`server` must be set before the server starts. ``log_error`` logs a line about an
-    exception that is a bug.
+    :attr:`server` must be set before the server starts.
+
+    Args:
+        node: of the viewer.
+        executor: that spins it.
+        log_error: logs a line about an exception that is a bug.
+        publish_description: returns a node that publishes a description and the transforms of its
+            links in a namespace, ``(namespace, urdf)``; for robots that pages spawn. Raises
+            AmrError.
     """
 
     server: Server
 
-    def __init__(self, node: Node, executor: Executor, log_error: Callable[[str], object]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        executor: Executor,
+        log_error: Callable[[str], object],
+        publish_description: Callable[[str, str], Node],
+    ) -> None:
         self._node = node
         self._executor = executor
         self._log_error = log_error
+        self._spawned = SpawnedRobots(executor, publish_description, log_error)
         self._services = ServiceClients(node)
         self._states = StateAssembler()
         self._monitor = GraphMonitor(node, self._states, self._services)
         self._monitor.observer = self
+        self._parameters = NodeParameters(self._services, executor)
+        log = node.get_logger().info
+        self._publications = Publications(node, executor, self._refusal, log)
+        self._goals = Goals(
+            node,
+            executor,
+            lambda each: self.server.publish_now(each.robot, each),
+            lambda call: self.server.call(call),
+        )
         self._simulators: dict[str, SimulatorClient] = {}
         self._diagnostics = LatestDiagnostics()
         self._refresher: asyncio.Task[None] | None = None
@@ -71,7 +129,10 @@ class GraphBackend(GraphObserver):
         self._session_count = 0
         self._session = 0
         """From the first page's connection to the last one's end; 0: no pages."""
-        self._watched: tuple[AbstractSet[Part], AbstractSet[str]] = (frozenset(), frozenset())
+        self._watched = Watched()
+        self._held: frozenset[str] = frozenset()
+        """The robots that are held at rest."""
+        self._controllers: dict[str, tuple[ControllerInfo, ...]] = {}
         self._infos: tuple[RobotInfo, ...] = ()
         self._sensors: tuple[SensorInfo, ...] = ()
 
@@ -91,9 +152,9 @@ class GraphBackend(GraphObserver):
         if self._refresher is not None:
             self._refresher.cancel()
 
-    def watch(self, parts: AbstractSet[Part], topics: AbstractSet[str]) -> None:
-        """Collect these parts of states, and hear these sensors, and nothing else of the kind."""
-        self._watched = parts, topics
+    def watch(self, watched: Watched) -> None:
+        """Collect these parts of states, and hear these topics, and nothing else of the kind."""
+        self._watched = watched
         self._executor.create_task(self._set_watched)
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
@@ -102,20 +163,50 @@ class GraphBackend(GraphObserver):
         now = time.monotonic()
         if now >= self._status_due:
             self._status_due = now + _STATUS_PERIOD
-            messages = [*messages, *self._statuses()]
+            messages = [*messages, *self._statuses(), *self._commanders(now)]
+            if (ages := self._states.ages()) is not None:
+                messages.append(ages)
         return messages, state
 
-    def take_samples(self, wanted: AbstractSet[str]) -> Sequence[Sample]:
-        """Return new samples of these topics."""
-        return self._monitor.sensors.take(wanted)
+    def take_samples(self, wanted: AbstractSet[tuple[Channel, str]]) -> Sequence[Sample]:
+        """Return new samples of these channels, and of plotted values."""
+        return self._monitor.topics.take(wanted)
 
     def robots(self) -> Sequence[str]:
         """Return the robots that take velocity commands."""
         return [name for name, each in self._monitor.connections.items() if each.found.command]
 
+    def known(self) -> Sequence[str]:
+        """Return all robots."""
+        return [*self._monitor.connections]
+
+    def hold(self, robots: AbstractSet[str]) -> Mapping[str, Hold]:
+        """Hold these robots at rest, and release the others."""
+        connections, before, self._held = self._monitor.connections, self._held, frozenset(robots)
+        for name in before - self._held:
+            if name in connections:
+                connections[name].release()
+                self._activate_again(connections[name])
+        stamp, now = self._now(), time.monotonic()
+        held = {name: connections[name].hold(stamp, now) for name in robots if name in connections}
+        if self._held != before:
+            self._executor.create_task(self._set_held)
+            self._goals.stop(self._held - before)
+        return {
+            name: replace(each, controllers=self._drive_controllers(connections[name]))
+            for name, each in held.items()
+        }
+
     def drive(self, robot: str, linear: float, angular: float, sideways: float = 0.0) -> None:
         """Publish one command."""
         self._connection(robot).drive(linear, angular, sideways, self._now())
+
+    def push(self, simulator: str, entity: str, link: str, force: Vector, torque: Vector) -> None:
+        """Push a link; no force and no torque: let go."""
+        pushing = self._monitor.pushing.get(simulator)
+        if pushing is None:
+            raise ViewerError(f'{simulator} does not hear ~/wrench, so that nothing can be pushed')
+        pushing.push(entity, link, force, torque)
 
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
         """Move joints by joint_state_publisher, else by controllers."""
@@ -127,8 +218,52 @@ class GraphBackend(GraphObserver):
             if robot in (None, name):
                 each.commands.hold(each.topics.positions())
 
-    async def handle(self, request: Request) -> str:
-        """Carry out a request."""
+    async def handle(self, request: Request, page: str) -> Answer:
+        """Carry out a request of a page."""
+        match request:
+            case Definition():
+                return Answer(request.message, fields_of_type(request.message))
+            case Publish():
+                return Answer(await self._publications.publish(page, request))
+            case Unpublish():
+                return Answer(self._publications.unpublish(page, request.topic))
+            case ListParameters():
+                parameters = await self._parameters.all_of(request.node)
+                return Answer(f'{request.node} has {len(parameters)} parameters', parameters)
+            case SetParameter():
+                found = await self._parameters.set(request)
+                return Answer(f'{request.node} has taken {request.name}', found)
+            case SetGoal(robot=robot):
+                if robot in self._held:
+                    raise ViewerError(f'{robot} is stopped: it takes no goal until it is released')
+                return Answer(await self._goals.set_goal(request, page, self._now()))
+            case CancelGoal():
+                return Answer(await self._goals.cancel(request.robot))
+            case SetInitialPose():
+                return Answer(self._goals.set_initial_pose(request, self._now()))
+            case DeactivateDrive():
+                return Answer(await self._deactivate_drive(self._connection(request.robot)))
+            case _:
+                return Answer(await self._simulate(request))
+
+    def forget(self, page: str) -> None:
+        """End what a page published."""
+        self._publications.forget(page)
+
+    def latest(self, part: Part) -> ServerMessage | None:
+        """Return what is known of a part that is not of the states."""
+        return self._monitor.introspection.latest(part)
+
+    def _refusal(self, topic: str) -> str | None:
+        """Return why pages must not publish on a topic by forms; None: they may."""
+        for name in self._held:
+            each = self._monitor.connections.get(name)
+            if each is not None and each.found.command and each.found.command.topic == topic:
+                return f'{name} is stopped: nothing is published on {topic} until it is released'
+        return None
+
+    async def _simulate(self, request: SimulatorRequest | Switch) -> str:
+        """Switch controllers, or have a simulator do something; return what was done."""
         if isinstance(request, Switch):
             manager = self._connection(request.robot).found.manager
             if manager is None:
@@ -142,25 +277,44 @@ class GraphBackend(GraphObserver):
             known = ', '.join(self._simulators) or 'none'
             raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
         try:
+            if isinstance(request, LoadWorld):
+                residents = self._residents(simulator)
+                return await change_world(self._services, simulator, residents, request)
             done = await simulator.handle(request)
         finally:
             self._start(self._refresh(simulator))
         return f'{done}{await self._set_up(request)}' if isinstance(request, Spawn) else done
 
     async def _set_up(self, request: Spawn) -> str:
-        """Give a spawned robot the description and the active controllers of the other one."""
-        like, robot = self._connection(request.like), f'/{request.namespace.strip("/")}'
-        self._executor.create_task(
-            self._monitor.set_description, robot, self._description_of(request.like)
-        )
+        """Give a spawned robot its description, and the active controllers of one it is like."""
+        robot = f'/{request.namespace.strip("/")}'
+        if robot not in self._monitor.connections:  # nobody publishes its description yet
+            urdf = request.urdf if request.like is None else self._description_of(request.like)
+            self._executor.create_task(self._spawned.add, robot, urdf)
+        if request.like is None:
+            return ''
+        like = self._connection(request.like)
         if like.found.manager is None:
             return ''
         manager = robot.rstrip('/') + like.found.manager.removeprefix(like.found.id.rstrip('/'))
         try:
-            names = await activate_same_controllers(self._services, like.found.manager, manager)
+            names = await active_controllers(self._services, like.found.manager)
+            await activate_controllers(self._services, manager, names)
         except ViewerError as error:
             return f', but its controllers are not active: {error}'
         return f'; active: {", ".join(names) or "no controllers"}'
+
+    def _residents(self, simulator: SimulatorClient) -> list[Resident]:
+        """Return the robots of a simulator's world, those of which the entity is known."""
+        found = []
+        for name, each in self._monitor.connections.items():
+            if each.described is not None and each.found.is_present:
+                names = (name.strip('/'), each.described.name)
+                entity = next((one for one in names if one in simulator.entities), None)
+                if entity is not None:
+                    urdf = each.described.message.urdf
+                    found.append(Resident(entity, name, urdf, each.found.manager))
+        return found
 
     def mesh(self, name: str) -> Path | bytes | None:
         """Return a file that a description names, or its converted data."""
@@ -177,7 +331,11 @@ class GraphBackend(GraphObserver):
 
     def _set_watched(self) -> None:
         """Pass on what is watched at present, for the same reason."""
-        self._monitor.watch(*self._watched)
+        self._monitor.watch(self._watched)
+
+    def _set_held(self) -> None:
+        """Pass on what is held at present, for the same reason."""
+        self._monitor.hold(self._held)
 
     def _set_groups(self, connection: RobotConnection, groups: Sequence[ControllerJoints]) -> None:
         """Advertise what moves joints, unless the robot has gone in the meantime."""
@@ -185,20 +343,33 @@ class GraphBackend(GraphObserver):
             connection.commands.set_groups(groups)
 
     def disconnect(self) -> None:
-        """Disconnect from the graph, after the server has ended; the last stops have arrived."""
+        """
+        Disconnect from the graph, after the server has ended; the last stops have arrived.
+
+        What is held stays so: nobody may drive because this node has ended.
+        """
+        for name in sorted(self._held & self._monitor.connections.keys()):
+            connection = self._monitor.connections[name]
+            if connection.is_locked or connection.deactivated:
+                self._node.get_logger().warning(_still_held(connection))
         self._monitor.set_session(0)
+        self._spawned.retain(())
 
     def graph_changed(self) -> None:
         """Publish the graph."""
         connections, found = self._monitor.connections, self._monitor.found
+        self._spawned.forget_deleted(found.robots)
         simulators = [each.id for each in found.simulators]
         infos = tuple(each.info for each in connections.values())
         self.server.call(lambda: self._set_simulators(simulators))
         self.server.retain([*connections, *simulators])
+        self._goals.find(found.navigators, found.tf_namespaces)
         self.server.call(lambda: self._publish_graph(infos, found.sensors))
         for name, each in connections.items():
             if each.found.manager:
                 self.controllers_changed(name)
+        if self._held:
+            self._executor.create_task(self._set_held)
 
     def description_changed(self, connection: RobotConnection) -> None:
         """Publish the description."""
@@ -215,8 +386,13 @@ class GraphBackend(GraphObserver):
 
     def diagnostics_received(self, message: DiagnosticArray) -> None:
         """Publish the diagnostics of each robot."""
-        for each in self._diagnostics.update(message, [*self._monitor.connections]):
+        present = [each.id for each in self._monitor.found.robots if each.is_present]
+        for each in self._diagnostics.update(message, present):
             self.server.publish(each.robot, each)
+
+    def graph_shown(self, part: Part, message: GraphMessage) -> None:
+        """Send news of the graph to the pages that show them."""
+        self.server.send_to(part, message)
 
     # --- on the server's thread ------------------------------------------------------------------
 
@@ -236,13 +412,14 @@ class GraphBackend(GraphObserver):
         self._infos, self._sensors = robots, sensors
         simulators = tuple(each.info for each in self._simulators.values())
         hint = None if robots else self._hint()
-        self.server.publish_now('', Graph(robots, simulators, hint, sensors))
+        navigators = self._goals.navigators
+        self.server.publish_now('', Graph(robots, simulators, hint, sensors, navigators))
 
     def _hint(self) -> str:
         return (
             'nothing publishes /robot_description in ROS domain '
-            f'{self._node.context.get_domain_id()}; start a robot, such as: ros2 launch '
-            'amr_description simulation'
+            f'{self._node.context.get_domain_id()}; start a robot, such as: `ros2 '
+            'launch amr_description simulation`'
         )
 
     def _statuses(self) -> list[SimulationStatus]:
@@ -289,10 +466,80 @@ class GraphBackend(GraphObserver):
                 manager = connection.found.manager
                 controllers = await list_controllers(self._services, manager, robot)
                 groups = joint_groups(controllers.controllers, connection.found.joint_commands)
+                self._controllers[robot] = controllers.controllers
                 self._executor.create_task(self._set_groups, connection, groups)
                 self.server.publish_now(robot, with_moves(controllers, groups))
 
+                if connection.timeout is None and connection.found.drive_parameters:
+                    await self._find_timeout(connection, connection.found.drive_parameters)
+
         self._start(list_them())
+
+    async def _find_timeout(self, connection: RobotConnection, service: str) -> None:
+        """Have the commands of a robot expire when its controller has them expire."""
+        kinds = [
+            each.kind
+            for each in self._controllers.get(connection.found.id, ())
+            if each.name == service.split('/')[-2]
+        ]
+        if any(kind.startswith(_NEVER_EXPIRING) for kind in kinds):
+            connection.set_timeout(0.0)
+            return
+        timeout = await command_timeout(self._services, service)
+        connection.set_timeout(timeout or DEFAULT_TIMEOUT)
+
+    def _drive_controllers(self, connection: RobotConnection) -> tuple[str, ...]:
+        """Return the active controllers that take the commands of a robot."""
+        nodes = {each.rpartition('/')[2] for each in connection.drives}
+        listed = self._controllers.get(connection.found.id, ())
+        return tuple(each.name for each in listed if each.state == 'active' and each.name in nodes)
+
+    async def _deactivate_drive(self, connection: RobotConnection) -> str:
+        robot, manager = connection.found.id, connection.found.manager
+        names = self._drive_controllers(connection)
+        if robot not in self._held:
+            raise ViewerError(f'{robot} is not stopped; press STOP first')
+        if manager is None or not names:
+            raise ViewerError(f'no active controller of a controller manager drives {robot}')
+        try:
+            done = await switch_controllers(self._services, manager, Switch(0, robot, (), names))
+        finally:
+            self._list_controllers(robot)
+        connection.deactivated = (*connection.deactivated, *names)
+        if robot not in self._held:  # it was released in the meantime
+            self._activate_again(connection)
+        return f'{done} until {robot} is released'
+
+    def _activate_again(self, connection: RobotConnection) -> None:
+        """Activate what was deactivated to stop a robot, and say so if that fails."""
+        robot, manager, names = (
+            connection.found.id,
+            connection.found.manager,
+            connection.deactivated,
+        )
+        connection.deactivated = ()
+        if manager is None or not names:
+            return
+
+        async def activate() -> None:
+            try:
+                await switch_controllers(self._services, manager, Switch(0, robot, names, ()))
+            except ViewerError as error:
+                text = f'{", ".join(names)} of {robot} stays inactive: {error}'
+                self.server.send_now(Notice('error', text))
+            finally:
+                self._list_controllers(robot)
+
+        self._start(activate())
+
+    def _commanders(self, now: float) -> list[Commanders]:
+        """Return who commands each robot, with rates in whole Hz: this is sent on changes."""
+        found = []
+        for name, each in self._monitor.connections.items():
+            command = each.topics.command
+            rate = 0.0 if command is None else command.rate(now)
+            found.append(Commanders(name, each.commanders, _whole(rate)))
+        return found
 
     async def _refresh(self, simulator: SimulatorClient) -> None:
         before = simulator.info
@@ -323,3 +570,19 @@ class GraphBackend(GraphObserver):
         task = asyncio.get_running_loop().create_task(run())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+
+def _still_held(connection: RobotConnection) -> str:
+    """Return what to say of a robot that STOP still holds when this node ends."""
+    robot, found = connection.found.id, []
+    if connection.is_locked:
+        release = f'ros2 topic pub -1 {lock_topic(robot)} std_msgs/msg/Bool "{{data: false}}"'
+        found.append(f'its lock holds until: {release}')
+    if connection.deactivated:
+        found.append(f'inactive: {", ".join(connection.deactivated)}')
+    return f'STOP still holds {robot}: {"; ".join(found)}'
+
+
+def _whole(rate: float) -> float:
+    """Return a rate as pages show it, Hz; one below that of a second is 1: somebody is there."""
+    return float(max(round(rate), 1)) if rate else 0.0

@@ -15,6 +15,7 @@ from amr_description.errors import MeshError, ResourceError
 from amr_description.model import findings
 from amr_description.model.checks import examine
 from amr_description.model.meshes import load_mesh, stl_bytes
+from amr_description.model.origins import line_from
 from amr_description.model.robot import Collision, Joint, JointType, Mesh, Robot, Visual
 from amr_description.text import one_line
 from amr_description.viewer.http import digest
@@ -50,7 +51,7 @@ class DescribedRobot:
 def describe_robot(robot: str, text: str) -> DescribedRobot:
     """Read the description ``text`` of the robot with id ``robot``; errors become findings."""
     examination = examine(text, SOURCE)
-    model, told = examination.robot, [_finding(each) for each in examination.findings]
+    model, told = examination.robot, [_finding(each, text) for each in examination.findings]
     meshes: dict[str, str] = {}
     files: dict[str, Path | bytes] = {}
     tried: set[str] = set()
@@ -68,7 +69,7 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
             if suffix in _CONVERTED:
                 content, suffix = stl_bytes(load_mesh(file)), '.stl'
         except (ResourceError, MeshError) as error:
-            told.append(Finding('warning', None, f'{uri} cannot be drawn: {error}', ''))
+            told.append(Finding('warning', None, None, f'{uri} cannot be drawn: {error}', ''))
             continue
         name = f'{digest(data)}{suffix}'
         meshes[uri], files[name] = f'/mesh/{name}', content
@@ -143,17 +144,20 @@ def _joint(joint: Joint) -> JointInfo:
     )
 
 
-def _finding(finding: findings.Finding) -> Finding:
+def _finding(finding: findings.Finding, urdf: str) -> Finding:
     parts = [f'found {finding.found}'] if finding.found else []
     parts += [f'expected {finding.expected}'] if finding.expected else []
     text = f'{finding.what}: {", ".join(parts)}' if parts else finding.what
+    at = finding.line or None
     if finding.source != SOURCE:  # the line is one of the file that the text is from
         text = f'{Path(finding.source).name}: {text}'
+        at = line_from(urdf, finding.source, finding.line)
     if finding.context:
         text = f'{text} ({finding.context})'
     return Finding(
         level='error' if finding.severity is findings.Severity.ERROR else 'warning',
         line=finding.line or None,
+        at=at,
         text=one_line(text),
         remedy=one_line(finding.fix),
     )

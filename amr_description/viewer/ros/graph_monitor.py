@@ -4,14 +4,15 @@
 Watches the ROS graph, and connects the viewer with its robots and simulators.
 
 Everything here runs on the ROS thread. What the server's thread reads,
-:attr:`GraphMonitor.connections`, :attr:`GraphMonitor.found` and ``states.sources``, is replaced as
-a whole and never modified.
+:attr:`GraphMonitor.connections`, :attr:`GraphMonitor.found`, :attr:`GraphMonitor.pushing` and
+``states.sources``, is replaced as a whole and never modified.
 """
 
 from collections.abc import Mapping, Set as AbstractSet
 from functools import partial
 
 from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.srv import GetParameters
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.node import Node
@@ -19,15 +20,20 @@ from rclpy.subscription import Subscription
 from rclpy.timer import Timer
 from visualization_msgs.msg import MarkerArray
 
+from amr_description.viewer.backend import Watched
 from amr_description.viewer.graph import (
     ACTIVITY,
     discover,
     DiscoveredGraph,
     DYNAMIC_JOINT_STATE,
+    ENTITY_WRENCH,
     FoundRobot,
+    GOAL,
     GraphNames,
+    INITIAL_POSE,
     JOINT_STATE,
     MARKERS,
+    NAVIGATE_FEEDBACK,
     ODOMETRY,
     SENSORS,
     STATISTICS_VALUES,
@@ -37,28 +43,39 @@ from amr_description.viewer.graph import (
 )
 from amr_description.viewer.joint_groups import POSITIONS, TRAJECTORY
 from amr_description.viewer.requests import Part
+from amr_description.viewer.ros.introspection import GraphMessage, Introspection
+from amr_description.viewer.ros.pushing import Pushing
 from amr_description.viewer.ros.robot import RobotConnection, WorldSubscription
 from amr_description.viewer.ros.robot_topics import TransformTopics
-from amr_description.viewer.ros.sensors import SensorFeeds
 from amr_description.viewer.ros.service_clients import (
     manager_service_types,
     ServiceClients,
     simulator_service_types,
 )
 from amr_description.viewer.ros.states import RosClock, StateAssembler, StateSources
+from amr_description.viewer.ros.topic_feeds import TopicFeeds
 
 _PUBLISHED_TYPES = {
     ACTIVITY,
     DYNAMIC_JOINT_STATE,
     JOINT_STATE,
     MARKERS,
+    NAVIGATE_FEEDBACK,
     ODOMETRY,
     STATISTICS_VALUES,
     STRING,
     TF,
     *SENSORS,
 }
-_SUBSCRIBED_TYPES = {JOINT_STATE, POSITIONS, TRAJECTORY, *TWISTS}
+_SUBSCRIBED_TYPES = {
+    ENTITY_WRENCH,
+    GOAL,
+    INITIAL_POSE,
+    JOINT_STATE,
+    POSITIONS,
+    TRAJECTORY,
+    *TWISTS,
+}
 _PERIOD = 0.5
 """s between two polls of the graph."""
 
@@ -81,6 +98,9 @@ class GraphObserver:
     def diagnostics_received(self, message: DiagnosticArray) -> None:
         """A message on /diagnostics was received."""
 
+    def graph_shown(self, part: Part, message: GraphMessage) -> None:
+        """There is news of a part that pages show of the graph itself."""
+
 
 class GraphMonitor:
     """
@@ -94,14 +114,15 @@ class GraphMonitor:
         self.found = DiscoveredGraph()
         self.connections: Mapping[str, RobotConnection] = {}
         """By the id of the robot."""
-        self.sensors = SensorFeeds(node)
+        self.topics = TopicFeeds(node, states.time_at)
+        self.introspection = Introspection(node, lambda *told: self.observer.graph_shown(*told))
         self._node = node
         self._states = states
         self._services = services
+        self.pushing: Mapping[str, Pushing] = {}
+        """By the simulator."""
         self._worlds: dict[str, WorldSubscription] = {}
         self._session = 0
-        self._descriptions: dict[str, str] = {}
-        """Of robots that publish none: id -> URDF."""
         self._watched: AbstractSet[Part] = frozenset()
         self._timer: Timer | None = None
         self._diagnostics: Subscription | None = None
@@ -117,20 +138,22 @@ class GraphMonitor:
         if session:
             self._open()
 
-    def set_description(self, robot: str, text: str) -> None:
-        """Use this description for a robot that publishes none itself."""
-        self._descriptions[robot] = text
-        if self._timer is not None:
-            self._poll()
-
-    def watch(self, parts: AbstractSet[Part], topics: AbstractSet[str]) -> None:
+    def watch(self, watched: Watched) -> None:
         """Subscribe, of what is collected on demand, to these parts of all robots, and topics."""
-        self._watched = parts
-        self.sensors.watch(topics)
+        self._watched = watched.parts
+        self.topics.watch(watched)
         self._watch_parts()
+
+    def hold(self, robots: AbstractSet[str]) -> None:
+        """Answer commands of others for these robots, which are held at rest, and no others."""
+        for name, connection in self.connections.items():
+            connection.look()
+            connection.answer(name in robots)
 
     def _watch_parts(self) -> None:
         parts = self._watched
+        if self._timer is not None:
+            self.introspection.watch(parts, self.found.tf_namespaces)
         for connection in self.connections.values():
             connection.watch(parts)
 
@@ -143,6 +166,7 @@ class GraphMonitor:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._timer = node.create_timer(_PERIOD, self._poll, clock=steady)
         self._update_sources()
+        self.introspection.open()
         self._poll()
         self.observer.graph_changed()
 
@@ -152,6 +176,7 @@ class GraphMonitor:
         self._states.sources = None
         self._node.destroy_timer(self._timer)
         self._timer = None
+        self.introspection.close()
         self._node.destroy_subscription(self._diagnostics)
         self._clock.destroy()
         self._transforms.destroy()
@@ -160,12 +185,16 @@ class GraphMonitor:
     def _poll(self) -> None:
         """Compare the graph with what is connected."""
         self._forget_dead_clock()
-        found = discover(names_in_graph(self._node), self._descriptions)
+        found = discover(names_in_graph(self._node))
         if found != self.found:
             self._connect(found)
             self._update_sources()
             self.observer.graph_changed()
+        for connection in self.connections.values():
+            connection.look()
         self._watch_parts()  # of new robots, and of those whose layout is known by now
+        self.topics.refresh()
+        self.introspection.poll()
 
     def _forget_dead_clock(self) -> None:
         """Stamp no command with the time of a simulation that has ended: it would be too old."""
@@ -177,16 +206,14 @@ class GraphMonitor:
         self._services.set_services(_service_types(found))
         connections = {each.id: self._connection(each) for each in found.robots}
         gone = [each for name, each in self.connections.items() if name not in connections]
-        has_other_frames = bool(gone) or found.tf_namespaces != self.found.tf_namespaces
+        left = _present(self.found) - _present(found)
+        has_other_frames = bool(left) or found.tf_namespaces != self.found.tf_namespaces
         self.connections, self.found = connections, found
         for connection in gone:
             connection.destroy()
-            self._descriptions.pop(connection.found.id, None)
-        for name, connection in connections.items():
-            if connection.described is None and name in self._descriptions:
-                connection.set_description(self._descriptions[name])
-        self.sensors.find(found.sensors)
+        self.topics.find(found.sensors)
         self._connect_worlds({each.id: each.world for each in found.simulators if each.world})
+        self._connect_pushing({each.id for each in found.simulators if each.hears_wrenches})
         if has_other_frames and self._timer is not None:  # the frames of a robot never expire
             assert self._transforms is not None, 'a session is open'
             self._transforms.destroy()
@@ -215,6 +242,16 @@ class GraphMonitor:
                 callback = partial(self._on_world, name)
                 self._worlds[name] = WorldSubscription(self._node, topic, callback)
 
+    def _connect_pushing(self, simulators: AbstractSet[str]) -> None:
+        """Have publishers of wrenches for these simulators, and for no others."""
+        before = self.pushing
+        if before.keys() != simulators:
+            self.pushing = {
+                name: before.get(name) or Pushing(self._node, name) for name in simulators
+            }
+            for name in before.keys() - simulators:
+                before[name].destroy()
+
     def _on_world(self, simulator: str, message: MarkerArray) -> None:
         self.observer.world_received(simulator, message)
 
@@ -227,6 +264,10 @@ class GraphMonitor:
         assert self._clock and self._transforms, 'a session is open'
         robots = tuple(each.topics for each in self.connections.values())
         self._states.sources = StateSources(self._clock, self._transforms, robots)
+
+
+def _present(graph: DiscoveredGraph) -> set[str]:
+    return {each.id for each in graph.robots if each.is_present}
 
 
 def names_in_graph(node: Node) -> GraphNames:
@@ -253,4 +294,6 @@ def _service_types(found: DiscoveredGraph) -> dict[str, type]:
     for robot in found.robots:
         if robot.manager is not None:
             types |= manager_service_types(robot.manager)
+        if robot.drive_parameters is not None:
+            types[robot.drive_parameters] = GetParameters
     return types

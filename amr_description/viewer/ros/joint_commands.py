@@ -3,10 +3,11 @@
 """
 The topics and actions by which pages move the joints of a robot that controllers command.
 
-Publishers and clients are created and destroyed on the ROS thread, and used on the server's
-thread.
+Publishers and clients are created and destroyed on the ROS thread; publishers are used on the
+server's thread.
 """
 
+from collections import deque
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 import time
@@ -47,6 +48,8 @@ class _Mover:
         self.targets = GroupTargets(group)
         self.is_moved = False
         """Whether a page has moved it since it was last held."""
+        self._latest_goal: deque[Any] = deque(maxlen=1)
+        """One that is not sent yet; a later one takes its place."""
         self._publisher: Publisher | None = None
         self._action: ActionClient | None = None
         if group.message in _ACTIONS:
@@ -71,9 +74,25 @@ class _Mover:
             if self._publisher is not None:
                 self._publisher.publish(self._message(targets, duration))
             elif self._action is not None:
-                self._action.send_goal_async(self._goal(targets))
+                self._send_goal(self._goal(targets))
         except InvalidHandle:  # the ROS thread has destroyed it in the meantime
             raise ViewerError(f'{self.group.controller} is just going') from None
+
+    def _send_goal(self, goal: Any) -> None:
+        """
+        Send a goal, on the ROS thread.
+
+        An ActionClient takes note of its request after it has sent it, without a lock: sent on
+        another thread, the answer can come first, and is then unexpected.
+        """
+        self._latest_goal.append(goal)  # the tasks of an executor run in any order
+        if (executor := self._node.executor) is not None:  # else the node is just going
+            executor.create_task(self._send_latest_goal)
+
+    def _send_latest_goal(self) -> None:
+        if self._action is not None:
+            with suppress(IndexError, InvalidHandle):  # sent by then; destroyed in the meantime
+                self._action.send_goal_async(self._latest_goal.pop())
 
     def _message(
         self, targets: Sequence[float], duration: float

@@ -7,6 +7,7 @@ They are created and destroyed on the ROS thread; commands are published on the 
 """
 
 from collections.abc import Callable, Mapping, Set as AbstractSet
+from contextlib import suppress
 from typing import Any
 
 from controller_manager_msgs.msg import ControllerManagerActivity
@@ -15,19 +16,22 @@ from rclpy.duration import Duration
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
-from amr_description.errors import ViewerError
+from amr_description.errors import AmrError, ViewerError
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
+from amr_description.viewer.backend import Hold
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import RobotInfo
 from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.joint_commands import JointCommands
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
+from amr_description.viewer.ros.stopping import CommandAnswer, Lock, lock_topic
 
 _COMMAND_FRAME = 'base_link'
 _ACK_TIMEOUT = Duration(seconds=0.5)
@@ -67,9 +71,26 @@ class RobotConnection:
         self._joints: Publisher | None = None
         self.commands = JointCommands(node, found.id)
         """The joints that controllers let pages move."""
+        self.commanders: tuple[str, ...] = ()
+        """The other nodes with a publisher on the command topic."""
+        self.drives: frozenset[str] = frozenset()
+        """The nodes that take the commands."""
+        self.deactivated: tuple[str, ...] = ()
+        """The controllers that were deactivated to stop it; of the server's thread."""
+        self.timeout: float | None = None
+        """s after which its controller takes a command for outdated; None: not known."""
+        self._lock = Lock(node, found.id)
+        self._answer: CommandAnswer | None = None
+        self.is_locked = False
+        """Whether what drives it has subscribed to its lock."""
+        self._needs_zeros = True
+        self._is_held = False
+        self._held_at = 0
+        """ROS time of the last call of :meth:`hold`, ns: commands of others come in between."""
         self._advertise_commands()
         self._advertise_joints()
         self._subscribe_activity()
+        self.look()
 
     @property
     def info(self) -> RobotInfo:
@@ -78,6 +99,7 @@ class RobotConnection:
         return RobotInfo(
             id=found.id,
             name=self.described.name if self.described else '',
+            present=found.is_present,
             command=found.command,
             odometry=found.odometry,
             truth=found.truth,
@@ -111,11 +133,90 @@ class RobotConnection:
         self.topics.destroy()  # first: in one process a topic can only have one type
         if found.command != before.command:
             self._advertise_commands()
+            self.timeout = None
+            self._end_answer()
         if found.joint_publisher != before.joint_publisher:
             self._advertise_joints()
         if found.activity != before.activity:
             self._subscribe_activity()
         self._subscribe_topics()
+        self.look()
+        self.answer(self._is_held)
+
+    def look(self) -> None:
+        """Look at who is at the other ends of its topics; on the ROS thread, now and then."""
+        node, command = self._node, self.found.command
+        topic = None if command is None else command.topic
+        publishers = [] if topic is None else node.get_publishers_info_by_topic(topic)
+        subscribers = [] if topic is None else node.get_subscriptions_info_by_topic(topic)
+        locked = node.get_subscriptions_info_by_topic(lock_topic(self.found.id))
+        own = node.get_fully_qualified_name()
+        self.commanders = tuple(sorted({_full_name(each) for each in publishers} - {own}))
+        self.drives = frozenset(map(_full_name, subscribers)) - {own}
+        # A recorder subscribes to every topic; a lock is one of who drives, or of a multiplexer.
+        ends = self.drives | {*self.commanders}
+        self.is_locked = any(_full_name(each) in ends for each in locked)
+        topics = self.topics
+        dead = {
+            part
+            for part, name in (
+                ('odometry', self.found.odometry),
+                ('truth', self.found.truth),
+                ('joint_states', self.found.joint_states),
+            )
+            if name is not None and not node.count_publishers(name)
+        }
+        if not self.commanders and self.timeout != 0.0:
+            dead.add('command')
+        topics.unpublished = frozenset(dead)
+
+    def answer(self, is_held: bool) -> None:
+        """Answer each command of others with a zero, or do so no more; on the ROS thread."""
+        self._is_held = is_held
+        if not is_held:
+            self._end_answer()
+        elif self._answer is None:
+            self._answer = CommandAnswer(self._node, self.found, self._on_command)
+
+    def set_timeout(self, timeout: float) -> None:
+        """Have commands expire after this many s, 0: never; on any thread."""
+        self.timeout = timeout
+        if self.topics.command is not None:
+            self.topics.command.timeout = timeout
+
+    def hold(self, time: int, now: float) -> Hold:
+        """
+        Hold the robot at rest: to be called again and again.
+
+        Args:
+            time: ROS time, ns.
+            now: s of a monotonic clock.
+        """
+        self._held_at = time
+        self._lock.hold()
+        motion = self.topics.motion(now)
+        is_still = motion is not None and motion < 1.0
+        self._needs_zeros = not (self.is_locked and is_still)
+        if self._needs_zeros and self._commands is not None:
+            self._command_zero(time)
+        return Hold(motion, self.is_locked, (), self.deactivated)
+
+    def release(self) -> None:
+        """Hold it no more."""
+        self._lock.release()
+
+    def _on_command(self) -> None:
+        if self._needs_zeros:
+            self._command_zero(self._held_at)
+
+    def _command_zero(self, time: int) -> None:
+        with suppress(AmrError):  # it is just going
+            self.drive(0.0, 0.0, 0.0, time)
+
+    def _end_answer(self) -> None:
+        if self._answer is not None:
+            self._answer.destroy()
+            self._answer = None
 
     def destroy(self) -> None:
         """Destroy all publishers and subscriptions."""
@@ -124,6 +225,8 @@ class RobotConnection:
                 _destroy_publisher(self._node, publisher)
         self._commands = self._joints = None
         self.commands.destroy()
+        self._lock.destroy()
+        self._end_answer()
         for subscription in (self._description, self._activity):
             if subscription is not None:
                 self._node.destroy_subscription(subscription)
@@ -145,6 +248,8 @@ class RobotConnection:
             twist = message.twist
         assert isinstance(twist, Twist), 'the only other type'
         twist.linear.x, twist.linear.y, twist.angular.z = linear, sideways, angular
+        if self.topics.command is not None:
+            self.topics.command.sent((linear, angular, sideways))
         self._publish(publisher, message)
 
     def set_joints(self, positions: Mapping[str, float], time: int) -> None:
@@ -194,6 +299,12 @@ class RobotConnection:
         self.topics = RobotTopics(self._node, self.found, joints)
         self.topics.keep_joint_states(before)
         self.topics.watch(self._watched)
+        if self.timeout is not None:
+            self.set_timeout(self.timeout)
+
+
+def _full_name(info: TopicEndpointInfo) -> str:
+    return f'{info.node_namespace.rstrip("/")}/{info.node_name}'
 
 
 def _destroy_publisher(node: Node, publisher: Publisher) -> None:

@@ -8,6 +8,7 @@ Created and destroyed on the ROS thread, polled on the server's thread.
 
 from collections.abc import Callable, Iterator, Sequence, Set as AbstractSet
 import math
+from time import monotonic
 from typing import Any
 
 from control_msgs.msg import DynamicJointState
@@ -33,11 +34,22 @@ from amr_description.ros.cdr import (
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.qos import LATCHED, TF_STATIC
 from amr_description.viewer.graph import FoundRobot, TWISTS
-from amr_description.viewer.protocol import FrameInfo, RobotLayout
+from amr_description.viewer.protocol import FrameInfo, RobotAges, RobotLayout
 from amr_description.viewer.requests import Part
+from amr_description.viewer.ros.command_topic import CommandTopic, NO_TWIST
 from amr_description.viewer.states import Floats, RobotFloats
 
 COMMAND_TYPES = dict(zip(TWISTS, (TwistStamped, Twist), strict=True))
+_DEAD = 1.0
+"""s without a message after which values are not known any more, if nobody publishes the topic."""
+_RECENT = 0.5
+"""s for which a velocity says whether the robot moves."""
+_STILL_LINEAR, _STILL_ANGULAR = 0.01, 0.03
+"""m/s and rad/s below which a robot is at rest."""
+_STILL_JOINT = 0.1
+"""rad/s below which a wheel is."""
+_LINEAR, _ANGULAR, _LATERAL = 7, 8, 9
+"""Where an odometry has its velocities."""
 _WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
 
@@ -61,6 +73,7 @@ class TransformTopics:
             ]
         self._poses: dict[str, tuple[float, ...]] = {}
         self._parents: dict[str, str] = {}
+        self._came: float | None = None
 
     def destroy(self) -> None:
         """Unsubscribe."""
@@ -73,6 +86,8 @@ class TransformTopics:
         is_changed = False
         for prefix, topic in self._topics:
             while (transforms := topic.take()) is not None:
+                if not topic.topic.endswith('/tf_static'):
+                    self._came = monotonic()
                 for each in transforms:
                     name, parent = _prefixed(prefix, each.name), _prefixed(prefix, each.parent)
                     is_changed |= self._parents.get(name) != parent
@@ -80,6 +95,10 @@ class TransformTopics:
                     self._poses[name] = each.pose
                     moved.add(name)
         return moved, is_changed
+
+    def age(self, now: float) -> float | None:
+        """Return that of the latest transform that moves, s; ``now`` of a monotonic clock."""
+        return None if self._came is None else now - self._came
 
     def pose(self, name: str) -> tuple[float, ...]:
         """Return the latest pose of a frame in its parent: x y z (m), qx qy qz qw."""
@@ -224,11 +243,17 @@ class RobotTopics:
             'wheels': _write_wheels,
             'command': lambda command, floats: _copy(command, floats.command),
         }
+        self._came: dict[str, float] = {}
+        """When the latest message of each part came, s of a monotonic clock."""
+        self.unpublished: frozenset[str] = frozenset()
+        """The parts whose topics nobody publishes; the ROS thread replaces it."""
         self._topics: dict[str, PolledTopic[Any] | CommandedVelocities | WheelContacts] = {
             part: PolledTopic(node, message_type, topic, read)
             for part, message_type, topic, read in _sources(found)
             if topic is not None
         }
+        self.command = _command_topic(node, found)
+        """Of velocity commands; None: the robot takes none."""
         self._wheels = WheelContacts(node, found.wheels) if found.wheels is not None else None
         if self._wheels is not None:
             self._topics['wheels'] = self._wheels
@@ -239,6 +264,8 @@ class RobotTopics:
         """Unsubscribe."""
         for topic in self._topics.values():
             topic.destroy()
+        if self.command is not None:
+            self.command.destroy()
 
     def keep_joint_states(self, before: 'RobotTopics') -> None:
         """
@@ -259,18 +286,67 @@ class RobotTopics:
         if self._wheels is not None:
             self._wheels.watch('wheels' in parts)
 
-    def take(self) -> list[str]:
-        """Poll the topics; return the parts of a state that have new values."""
-        new = []
+    def take(self, time: int) -> list[str]:
+        """Poll the topics, at ROS time ``time`` (ns); return the parts that have new values."""
+        new, now = self._forget_dead(monotonic()), monotonic()
+        if self.command is not None:
+            twist = self.command.take(time, now)
+            if twist is not None:
+                self._latest['command'] = twist
+                new.append('command')
+                if twist is not NO_TWIST:
+                    self._came['command'] = now
         for part, topic in self._topics.items():
             message = topic.take()
             if message is not None:
                 self._latest[part] = message
+                self._came[part] = now
                 new.append(part)
         wheels = self._wheels.names if self._wheels is not None else None
         if wheels is not None and wheels != self.layout.wheels:
             self.layout = RobotLayout(self.layout.id, self.layout.joints, wheels)
         return new
+
+    def _forget_dead(self, now: float) -> list[str]:
+        """Forget what nobody publishes any more; return the parts that are not known now."""
+        dead = [
+            part
+            for part in self.unpublished
+            if part in self._came and now - self._came[part] > _DEAD
+        ]
+        for part in dead:
+            del self._came[part]
+            self._latest[part] = None
+        return dead
+
+    def ages(self, now: float) -> RobotAges:
+        """Return the ages of the latest messages; ``now`` is s of a monotonic clock."""
+
+        def age(part: str) -> float | None:
+            came = self._came.get(part)
+            return None if came is None else hundredths(now - came)
+
+        parts = (age(part) for part in ('command', 'odometry', 'truth', 'joint_states'))
+        return RobotAges(self.found.id, *parts)
+
+    def motion(self, now: float) -> float | None:
+        """
+        Return how the robot moves, in multiples of what counts as at rest.
+
+        By its odometry, else by its turning wheels; None: neither was received lately.
+        """
+
+        def recent(part: str) -> Any:
+            came = self._came.get(part)
+            return self._latest[part] if came is not None and now - came < _RECENT else None
+
+        if (motion := recent('odometry')) is not None:
+            linear = math.hypot(motion[_LINEAR], motion[_LATERAL])
+            return max(linear / _STILL_LINEAR, abs(motion[_ANGULAR]) / _STILL_ANGULAR)
+        if (states := recent('joint_states')) is not None:
+            speeds = [abs(each) for each in states.velocities if math.isfinite(each)]
+            return max(speeds) / _STILL_JOINT if speeds else None
+        return None
 
     def positions(self) -> dict[str, float]:
         """Return the latest positions of the joints, rad or m, as far as they are known."""
@@ -283,7 +359,11 @@ class RobotTopics:
     def write(self, floats: RobotFloats, parts: Sequence[str] | None = None) -> None:
         """Write the latest values of these parts, or of all, into a state."""
         for part in self._latest if parts is None else parts:
-            self._writers[part](self._latest[part], floats)
+            latest = self._latest[part]
+            if latest is None:
+                _forget(part, floats)
+            else:
+                self._writers[part](latest, floats)
 
     def _write_joints(self, message: JointValues, floats: RobotFloats) -> None:
         for values, target in (
@@ -303,10 +383,26 @@ def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable
     yield 'joint_states', JointState, found.joint_states, JointStateReader()
     yield 'odometry', Odometry, found.odometry, read_odometry
     yield 'truth', Odometry, found.truth, read_odometry
-    if found.command is not None:
-        message_type = COMMAND_TYPES[found.command.message]
-        read = read_twist if message_type is Twist else read_twist_stamped
-        yield 'command', message_type, found.command.topic, read
+
+
+def hundredths(age: float | None) -> float | None:
+    """Return an age (s) as pages are sent it, often."""
+    return None if age is None else round(age, 2)
+
+
+def _command_topic(node: Node, found: FoundRobot) -> CommandTopic | None:
+    if found.command is None:
+        return None
+    message_type = COMMAND_TYPES[found.command.message]
+    read = read_twist if message_type is Twist else read_twist_stamped
+    return CommandTopic(node, message_type, found.command.topic, read)
+
+
+def _forget(part: str, floats: RobotFloats) -> None:
+    """Write that the values of a part are not known."""
+    names = ('positions', 'velocities') if part == 'joint_states' else (part,)
+    for name in names:
+        getattr(floats, name)[:] = math.nan
 
 
 def _write_wheels(message: InterfaceValues, floats: RobotFloats) -> None:

@@ -40,6 +40,8 @@ from amr_description.viewer.graph import (
     GZ_CONTACTS,
     IMAGE,
     LASER_SCAN,
+    OCCUPANCY_GRID,
+    PATH,
     RANGE,
 )
 from amr_description.viewer.pictures import picture_of_file, picture_of_pixels, SmallPicture
@@ -54,14 +56,13 @@ from amr_description.viewer.protocol import (
     Scan,
     Unreadable,
 )
+from amr_description.viewer.ros.navigation_samples import frame_name, grid_sample, path_sample
 from amr_description.viewer.samples import encode_sample, PLACE_FLOATS
 
 MOST_RAYS = 20_000
 """Ranges of a scan that are sent."""
 _WORLD = 'world'
 """The frame of the points of ``ros_gz_interfaces/msg/Contacts``, whatever the header says."""
-_LONGEST_NAME = 200
-"""Characters of the name of a frame."""
 _SHOWN_CONTACTS = 32
 """Pairs of shapes that are named."""
 _MOST_PLACES = 256
@@ -182,8 +183,7 @@ def _contacts(found: ContactsData, origin: Origin) -> tuple[Head, Parts]:
 
 
 def _origin(origin: Origin, header: Header) -> Origin:
-    frame = header.frame.removeprefix('/')[:_LONGEST_NAME]
-    return replace(origin, frame=frame, stamp=header.stamp / NANOSECONDS)
+    return replace(origin, frame=frame_name(header.frame), stamp=header.stamp / NANOSECONDS)
 
 
 def _finite(number: float) -> float | None:
@@ -198,5 +198,7 @@ CONVERTERS: Mapping[str, Converter] = {
     RANGE: _range,
     GZ_CONTACTS: _gz_contacts,
     CLASSIC_CONTACTS: _classic_contacts,
+    OCCUPANCY_GRID: grid_sample,
+    PATH: path_sample,
 }
 """By the type of the message."""

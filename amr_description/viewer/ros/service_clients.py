@@ -25,12 +25,17 @@ from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.task import Future
-from simulation_interfaces.msg import Result, SimulationState
+from simulation_interfaces.msg import EntityState, Result, SimulationState
 from simulation_interfaces.srv import (
     DeleteEntity,
+    GetAvailableWorlds,
+    GetCurrentWorld,
     GetEntities,
+    GetNamedPoses,
     GetSimulationState,
+    LoadWorld as LoadWorldService,
     ResetSimulation,
+    SetEntityState,
     SetSimulationState,
     SpawnEntity,
     StepSimulation,
@@ -38,7 +43,7 @@ from simulation_interfaces.srv import (
 
 from amr_description.errors import ViewerError
 from amr_description.model.frames import Transform
-from amr_description.ros.messages import fill_pose
+from amr_description.ros.messages import fill_pose, transform_of
 from amr_description.text import unwrap
 from amr_description.viewer.protocol import (
     ControllerInfo,
@@ -48,10 +53,13 @@ from amr_description.viewer.protocol import (
 )
 from amr_description.viewer.requests import (
     Delete,
+    LoadWorld,
+    Place,
     Play,
-    Request,
+    ResetEntity,
     ResetSimulation as Reset,
     SetFactor,
+    SimulatorRequest,
     Spawn,
     Step,
     Switch,
@@ -66,6 +74,7 @@ _SWITCH_TIMEOUT = 5.0
 _MANAGER_TIMEOUT = 20.0
 _MANAGER_PERIOD = 0.1
 
+_TIMEOUTS = ('cmd_vel_timeout', 'reference_timeout')
 _WORLD_FRAME = 'world'
 _FACTOR = 'real_time_factor'
 _STATES = {
@@ -81,6 +90,11 @@ _SIMULATOR_TYPES = {
     'spawn_entity': SpawnEntity,
     'delete_entity': DeleteEntity,
     'get_entities': GetEntities,
+    'get_named_poses': GetNamedPoses,
+    'get_available_worlds': GetAvailableWorlds,
+    'get_current_world': GetCurrentWorld,
+    'load_world': LoadWorldService,
+    'set_entity_state': SetEntityState,
     'get_parameters': GetParameters,
     'set_parameters': SetParameters,
 }
@@ -99,9 +113,21 @@ class ServiceClients:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[str, Client] = {}
+        self._found: Mapping[str, type] = {}
+        self._more: Mapping[str, type] = {}
 
     def set_services(self, types: Mapping[str, type]) -> None:
-        """Have clients for these services and no others; on the ROS thread."""
+        """Have clients for these services of the graph; on the ROS thread."""
+        self._found = types
+        self._update()
+
+    def set_more(self, types: Mapping[str, type]) -> None:
+        """Have clients for these services, too, and no others than before; on the ROS thread."""
+        self._more = types
+        self._update()
+
+    def _update(self) -> None:
+        types = {**self._more, **self._found}
         clients = {name: each for name, each in self._clients.items() if name in types}
         gone = [each for name, each in self._clients.items() if name not in types]
         for name, service_type in types.items():
@@ -177,13 +203,17 @@ class SimulatorClient:
         self.factor: float | None = None
         """The parameter ``real_time_factor``; None: the simulator has none."""
         self.entities: tuple[str, ...] = ()
+        self.world = ''
+        """The name of the present world; empty: it is not told."""
+        self.worlds: Mapping[str, str] = {}
+        """The worlds that can be loaded: name -> URI."""
         self._services = services
         self._description_of = description_of
 
     @property
     def info(self) -> SimulatorInfo:
         """The simulator as in the graph message."""
-        return SimulatorInfo(self.name, self.entities)
+        return SimulatorInfo(self.name, self.entities, self.world, tuple(self.worlds))
 
     async def refresh(self) -> None:
         """Query its state, real-time factor and entities. Raises ViewerError."""
@@ -196,8 +226,13 @@ class SimulatorClient:
         if self._offers('get_entities'):
             entities = await self._call('get_entities', GetEntities.Request())
             self.entities = tuple(entities.entities)
+        if self._offers('load_world') and not self.worlds:
+            found = await self._call('get_available_worlds', GetAvailableWorlds.Request())
+            self.worlds = {each.name: each.world_resource.uri for each in found.worlds}
+            current = await self._call('get_current_world', GetCurrentWorld.Request())
+            self.world = current.world.name
 
-    async def handle(self, request: Request) -> str:
+    async def handle(self, request: SimulatorRequest) -> str:
         """Carry out a request; return one line about what was done. Raises ViewerError."""
         match request:
             case Play(type='play'):
@@ -216,6 +251,15 @@ class SimulatorClient:
                 return await self._set_factor(request.factor)
             case Spawn():
                 return await self._spawn(request)
+            case Place():
+                turned = (0.0, 0.0, request.yaw)
+                await self._place(request.name, Transform.from_xyz_rpy(request.position, turned))
+                return f"'{request.name}' stands where it was put"
+            case ResetEntity():
+                await self._place(request.name, await self._spawn_pose(request.name))
+                return f"'{request.name}' stands where it was spawned"
+            case LoadWorld():
+                return await self._load_world(request.name)
             case Delete():
                 await self._do('delete_entity', DeleteEntity.Request(entity=request.name))
                 return f"'{request.name}' has left the world"
@@ -240,17 +284,47 @@ class SimulatorClient:
         return f'the real-time factor is {factor:g}' if factor else 'as fast as possible'
 
     async def _spawn(self, request: Spawn) -> str:
+        if request.like is None and request.urdf is None:
+            raise ViewerError('a robot to spawn has a URDF, or is like another one')
+        urdf = request.urdf or self._description_of(request.like or '')
+        pose = Transform.from_xyz_rpy(request.position, (0.0, 0.0, request.yaw))
+        return await self.spawn(request.name, request.namespace, urdf, pose)
+
+    async def spawn(self, name: str, namespace: str, urdf: str, pose: Transform) -> str:
+        """Spawn a robot; return one line about it. Raises ViewerError."""
         call = SpawnEntity.Request(
-            name=request.name,
-            allow_renaming=False,
-            entity_namespace=request.namespace,
-            resource_string=self._description_of(request.like),
+            name=name, allow_renaming=False, entity_namespace=namespace, resource_string=urdf
         )
         call.initial_pose.header.frame_id = _WORLD_FRAME
-        pose = Transform.from_xyz_rpy(request.position, (0.0, 0.0, request.yaw))
         fill_pose(pose, call.initial_pose.pose)
         response = await self._do('spawn_entity', call)
         return f"'{response.entity_name}' is in the world"
+
+    async def _load_world(self, name: str) -> str:
+        if name not in self.worlds:
+            known = ', '.join(self.worlds) or 'none'
+            raise ViewerError(f'there is no world {name!a} to load; there are: {known}')
+        response = await self._do('load_world', LoadWorldService.Request(uri=self.worlds[name]))
+        self.world = response.world.name
+        return f"the world is '{self.world}'"
+
+    async def _place(self, name: str, pose: Transform) -> None:
+        call = SetEntityState.Request(entity=name, state=EntityState())
+        call.state.header.frame_id = _WORLD_FRAME
+        fill_pose(pose, call.state.pose)
+        await self._do('set_entity_state', call)
+
+    async def spawn_poses(self) -> dict[str, Transform]:
+        """Return where the entities were spawned, by their names. Raises ViewerError."""
+        poses = (await self._do('get_named_poses', GetNamedPoses.Request())).poses
+        return {each.name: transform_of(each.pose) for each in poses}
+
+    async def _spawn_pose(self, name: str) -> Transform:
+        poses = await self.spawn_poses()
+        if name not in poses:
+            known = ', '.join(poses) or 'none'
+            raise ViewerError(f"where '{name}' was spawned is not known; of these it is: {known}")
+        return poses[name]
 
     def _offers(self, service: str) -> bool:
         return f'{self.name}/{service}' in self._services
@@ -301,25 +375,36 @@ async def switch_controllers(services: ServiceClients, manager: str, request: Sw
     return ', '.join(done) or 'nothing was asked'
 
 
-async def activate_same_controllers(
-    services: ServiceClients, source: str, manager: str
-) -> list[str]:
+async def command_timeout(services: ServiceClients, service: str) -> float | None:
     """
-    Load and activate in a new controller manager what is active in another.
+    Return the age at which a controller takes a command for outdated, s; 0: never.
 
-    Args:
-        services: the clients.
-        source: the manager whose active controllers are wanted.
-        manager: the new one; it is waited for.
+    None: it does not say so, or each command counts for one update only. Raises ViewerError.
+    """
+    response = await services.call(service, GetParameters.Request(names=[*_TIMEOUTS]))
+    for value in response.values:
+        if value.type == ParameterType.PARAMETER_INTEGER:  # of tricycle_controller
+            return value.integer_value / 1000.0
+        if value.type == ParameterType.PARAMETER_DOUBLE:
+            return value.double_value
+    return None
 
-    Returns:
-        The names of the controllers.
+
+async def active_controllers(services: ServiceClients, manager: str) -> list[str]:
+    """Return the active controllers of a manager, in the order to activate them in."""
+    listed = await services.call(f'{manager}/list_controllers', ListControllers.Request())
+    return [each.name for each in reversed(listed.controller) if each.state == 'active']
+
+
+async def activate_controllers(
+    services: ServiceClients, manager: str, names: Sequence[str]
+) -> None:
+    """
+    Load and activate controllers in a new controller manager, which is waited for.
 
     Raises:
         ViewerError: the new manager is not there, or cannot activate one of them.
     """
-    listed = await services.call(f'{source}/list_controllers', ListControllers.Request())
-    names = [each.name for each in reversed(listed.controller) if each.state == 'active']
     deadline = asyncio.get_running_loop().time() + _MANAGER_TIMEOUT
     while f'{manager}/load_controller' not in services:
         if asyncio.get_running_loop().time() > deadline:
@@ -332,7 +417,6 @@ async def activate_same_controllers(
             if not response.ok:
                 raise ViewerError(f'{manager} does not {verb} {name}; its log says why')
     await _switch(services, manager, names, [])
-    return names
 
 
 async def _switch(

@@ -7,7 +7,6 @@ Whenever the graph has changed, the ROS thread assigns a new :class:`StateSource
 thread polls its topics. So there are no callbacks at the rate of the topics, and no locks.
 """
 
-from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 import time
@@ -20,12 +19,10 @@ from amr_description.clock import NANOSECONDS
 from amr_description.ros.cdr import read_clock
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.qos import CLOCK
-from amr_description.viewer.protocol import Layout, ServerMessage, TimeReset
-from amr_description.viewer.ros.robot_topics import RobotTopics, TransformTopics
+from amr_description.viewer.protocol import Ages, Layout, ServerMessage, TimeReset
+from amr_description.viewer.real_time import RealTimeFactor, STALE
+from amr_description.viewer.ros.robot_topics import hundredths, RobotTopics, TransformTopics
 from amr_description.viewer.states import LAYOUTS, StateFrame
-
-_WINDOW = 1.0
-"""s of wall-clock time over which the real-time factor is measured."""
 
 
 class RosClock:
@@ -33,10 +30,10 @@ class RosClock:
 
     def __init__(self, node: Node) -> None:
         self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=CLOCK)
-        self._samples: deque[tuple[float, int]] = deque()
-        """(wall-clock time, s; simulation time, ns)."""
+        self._factor = RealTimeFactor()
         self._jumped_back = False
         self._last: int | None = None
+        self._heard = 0.0  # wall time of the latest message, s
         self.time: int | None = None
         """ns; None: not published. The ROS thread sets it to None when the publisher is gone."""
 
@@ -58,20 +55,20 @@ class RosClock:
         before, self.time, self._last = self._last, latest, latest
         if before is not None and latest < before:
             self._jumped_back = True
-            self._samples.clear()
-        now = time.monotonic()
-        self._samples.append((now, latest))
-        while now - self._samples[0][0] > _WINDOW and len(self._samples) > 2:  # noqa: PLR2004
-            self._samples.popleft()
+            self._factor.clear()
+        self._heard = time.monotonic()
+        self._factor.take(self._heard, latest)
 
     @property
     def factor(self) -> float | None:
-        """Simulated seconds per second of wall-clock time; None: not known yet."""
-        if len(self._samples) < 2:  # noqa: PLR2004
-            return None
-        (wall_0, time_0), (wall_1, time_1) = self._samples[0], self._samples[-1]
-        elapsed = wall_1 - wall_0
-        return (time_1 - time_0) / NANOSECONDS / elapsed if elapsed else None
+        """Simulated seconds per second of wall-clock time; None: not known, time stands still."""
+        age = self.age
+        return None if age is None or age > STALE else self._factor.value
+
+    @property
+    def age(self) -> float | None:
+        """Return that of the latest message, s of wall time; None: nobody publishes it."""
+        return None if self.time is None else time.monotonic() - self._heard
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +106,9 @@ class StateAssembler:
         if sources.clock.take():
             messages.append(TimeReset((sources.clock.time or 0) / NANOSECONDS))
         moved, tree_changed = sources.transforms.take()
-        new = [robot.take() for robot in sources.robots]
+        stamp = sources.clock.time
+        now = self._now() if stamp is None else stamp
+        new = [robot.take(now) for robot in sources.robots]
         layouts = tuple(robot.layout for robot in sources.robots)
         if tree_changed or sources is not self._laid_out or layouts != self._robots:
             self._laid_out, self._robots = sources, layouts
@@ -122,6 +121,15 @@ class StateAssembler:
         assert self._frame is not None, 'made with the first layout'
         self._number += 1
         return messages, self._frame.encode(self._number, self._time(sources))
+
+    def time_at(self, system_time: int) -> float:
+        """Return the time that a state had, or would have had, at a system time, ns: s."""
+        sources = self.sources
+        if sources is None or sources.clock.time is None:
+            return system_time / NANOSECONDS
+        passed = self._system_time() - system_time / NANOSECONDS
+        factor = sources.clock.factor
+        return sources.clock.time / NANOSECONDS - passed * (1.0 if factor is None else factor)
 
     def _lay_out(self, sources: StateSources) -> Layout:
         self._layout_id = (self._layout_id + 1) % LAYOUTS
@@ -152,3 +160,16 @@ class StateAssembler:
     def _time(self, sources: StateSources) -> float:
         stamp = sources.clock.time
         return self._system_time() if stamp is None else stamp / NANOSECONDS
+
+    def _now(self) -> int:
+        return round(self._system_time() * NANOSECONDS)
+
+    def ages(self) -> Ages | None:
+        """Return how old is what states say; None: nothing is connected."""
+        sources = self.sources
+        if sources is None:
+            return None
+        now = time.monotonic()
+        clock, transforms = sources.clock.age, sources.transforms.age(now)
+        robots = tuple(robot.ages(now) for robot in sources.robots)
+        return Ages(hundredths(clock), hundredths(transforms), robots)

@@ -57,7 +57,12 @@ def robot(opened):
          'introspection')
     )  # fmt: skip
     found = FoundRobot(
-        id='/', description='/d', wheels='/ground_truth/wheels', joint_commands=(), **nothing
+        id='/',
+        description='/d',
+        wheels='/ground_truth/wheels',
+        joint_commands=(),
+        is_present=True,
+        **nothing,
     )
     return RobotTopics(None, found, ())
 
@@ -69,7 +74,7 @@ def publish(opened):
 def wheels(robot, frame):
     """What a state says of the wheels, after what has come since the last one."""
     (floats,) = frame.robots
-    robot.write(floats, robot.take())
+    robot.write(floats, robot.take(0))
     return floats.wheels
 
 
@@ -77,7 +82,7 @@ def wheels(robot, frame):
 def frame(robot, opened):
     """A state, after the wheels are known."""
     publish(opened)
-    assert robot.take() == []
+    assert robot.take(0) == []
     return StateFrame(Layout(1, (), (robot.layout,)))
 
 
@@ -104,7 +109,7 @@ def test_what_is_watched_is_in_the_states_and_is_no_longer_known_after_that(robo
         assert (right[0], np.isnan(right[1:]).all()) == (0.0, True)
     robot.watch(set())
     assert np.isnan(wheels(robot, frame)).all()
-    assert robot.take() == []
+    assert robot.take(0) == []
     assert robot.layout.wheels == ('left', 'right')
 
 
@@ -124,7 +129,7 @@ def test_a_layout_laid_out_anew_has_no_value_that_nobody_watches(robot, opened, 
     publish(opened)
     wheels(robot, frame)
     robot.watch(set())
-    robot.take()
+    robot.take(0)
     again = StateFrame(Layout(2, (), (robot.layout,)))
     robot.write(again.robots[0])
     assert np.isnan(again.robots[0].wheels).all()
@@ -137,8 +142,74 @@ def test_joints_stay_known_when_other_topics_of_the_robot_change(robot, opened, 
     before = RobotTopics(None, replace(robot.found, joint_states='/joint_states'), ('arm',))
     joint_states = next(each for each in opened[1:] if each.name == '/joint_states')
     joint_states.message = JointValues(['arm'], [0.25], [])
-    before.take()
+    before.take(0)
     found = replace(robot.found, joint_states=topic, odometry='/odom')
     after = RobotTopics(None, found, ('arm',))
     after.keep_joint_states(before)
     assert after.positions() == known
+
+
+@pytest.fixture
+def wall(monkeypatch):
+    """The wall clock, s: a list whose last element is now."""
+    times = [100.0]
+    monkeypatch.setattr(robot_topics, 'monotonic', lambda: times[-1])
+    return times
+
+
+@pytest.fixture
+def measured(opened, robot, wall):
+    """A robot whose odometry and joint states have just come, and its state."""
+    found = replace(robot.found, odometry='/odom', joint_states='/joint_states')
+    topics = RobotTopics(None, found, ('arm',))
+    by_name = {each.name: each for each in opened}
+    by_name['/odom'].message = MOTION
+    by_name['/joint_states'].message = JointValues(['arm'], [0.25], [0.5])
+    frame = StateFrame(Layout(1, (), (topics.layout,)))
+    topics.write(frame.robots[0], topics.take(0))
+    return topics, frame.robots[0]
+
+
+MOTION = (0.0,) * 6 + (1.0, 0.3, 0.0, 0.4)
+
+
+def test_ages_are_those_of_the_latest_messages_of_each_kind(measured, wall):
+    topics, _ = measured
+    wall.append(103.0)
+    ages = topics.ages(103.0)
+    assert (ages.odometry, ages.joint_states) == (3.0, 3.0)
+    assert ages.truth is ages.command is None
+
+
+def test_what_a_dead_publisher_has_published_is_not_known_after_a_second(measured, wall):
+    topics, floats = measured
+    topics.unpublished = frozenset({'odometry', 'joint_states', 'truth'})
+    wall.append(100.9)
+    assert topics.take(0) == []
+    wall.append(101.1)
+    new = topics.take(0)
+    assert sorted(new) == ['joint_states', 'odometry']
+    topics.write(floats, new)
+    assert np.isnan(floats.odometry).all()
+    assert np.isnan(floats.positions).all() and np.isnan(floats.velocities).all()
+    assert topics.ages(101.1).odometry is None
+    assert topics.positions() == {}
+    topics.write(floats)  # a new layout
+    assert np.isnan(floats.odometry).all()
+
+
+def test_a_silent_publisher_that_is_there_keeps_its_values(measured, wall):
+    topics, floats = measured
+    wall.append(160.0)
+    topics.write(floats, topics.take(0))
+    assert floats.odometry[7] == pytest.approx(0.3)
+
+
+def test_a_robot_moves_as_its_odometry_says_lately_else_its_joints(measured, wall):
+    topics, _ = measured
+    assert topics.motion(100.1) == pytest.approx(50.0)  # 0.5 m/s, sideways included
+    assert topics.motion(101.0) is None
+    without = replace(topics.found, odometry=None)
+    joints = RobotTopics(None, without, ('arm',))
+    joints.keep_joint_states(topics)
+    assert joints.motion(100.1) is None  # kept, but not measured lately

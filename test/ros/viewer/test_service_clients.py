@@ -5,12 +5,16 @@
 import asyncio
 
 import pytest
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import GetParameters
 import rclpy
 from rclpy.node import Node
 from std_srvs.srv import Empty
 
 from amr_description.errors import ViewerError
-from amr_description.viewer.ros.service_clients import ServiceClients
+from amr_description.viewer.ros.service_clients import command_timeout, ServiceClients
+
+ASKED = ['cmd_vel_timeout', 'reference_timeout']
 
 
 @pytest.fixture
@@ -34,3 +38,21 @@ def test_a_service_that_goes_while_it_is_waited_for_is_no_bug(node):
 
     with pytest.raises(ViewerError, match='service /simulator/reset has gone'):
         asyncio.run(call())
+
+
+@pytest.mark.parametrize(
+    ('values', 'timeout'),
+    [
+        ([ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=0.25)], 0.25),
+        ([ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=500)], 0.5),  # ms
+        ([ParameterValue(), ParameterValue(type=ParameterType.PARAMETER_DOUBLE)], 0.0),
+        ([ParameterValue(), ParameterValue()], None),
+    ],
+)
+def test_when_commands_expire_is_what_their_controller_says(values, timeout):
+    class Services:
+        async def call(self, name, request):
+            assert (name, request.names) == ('/c/get_parameters', ASKED)
+            return GetParameters.Response(values=values)
+
+    assert asyncio.run(command_timeout(Services(), '/c/get_parameters')) == timeout

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot's description as a page gets it: joints, findings, and only those files it names."""
 
+import gzip
 import math
 import os
 from xml.sax.saxutils import escape
@@ -226,6 +227,28 @@ def test_a_file_that_changes_has_another_tag(static):
     assert files.get('/index.html') is before
     (static / 'index.html').write_text('<html lang="en">')
     assert files.get('/index.html').tag != before.tag
+
+
+def test_a_text_is_compressed_as_the_browser_takes_it(static):
+    files = StaticFiles(static)
+    script = static / 'deep' / 'a.js'
+    script.write_text('1;' * 500)
+    plain = files.get('/deep/a.js')
+    small = files.get('/deep/a.js', {'gzip'})
+    assert (plain.encoding, small.encoding) == (None, 'gzip')
+    assert gzip.decompress(small.data) == plain.data
+    assert len({plain.tag, small.tag}) == 2
+    assert files.get('/deep/a.js', {'gzip'}) is small, 'compressed once'
+    script.with_name('a.js.br').write_bytes(b'by the build')
+    built = files.get('/deep/a.js', {'gzip', 'br'})
+    assert (built.data, built.encoding, built.kind) == (b'by the build', 'br', plain.kind)
+    assert files.get('/deep/a.js', {'gzip'}) is small
+    assert files.get('/deep/a.js.br') is None
+
+
+def test_a_picture_is_not_compressed_again(static):
+    (static / 'a.png').write_bytes(b'png' * 500)
+    assert StaticFiles(static).get('/a.png', {'gzip', 'br'}).encoding is None
 
 
 def test_a_page_that_is_not_built_has_no_files(tmp_path):

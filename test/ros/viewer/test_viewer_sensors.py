@@ -14,11 +14,13 @@ from support.sensor_messages import classic_contacts, cloud, gz_contacts, image,
 from amr_description.clock import NANOSECONDS
 from amr_description.ros.message_types import type_name
 from amr_description.ros.polled_topic import NumberedMessage
+from amr_description.viewer.backend import Watched
 from amr_description.viewer.graph import SENSORS
 from amr_description.viewer.protocol import SensorInfo
 from amr_description.viewer.ros import sensors
 from amr_description.viewer.ros.sensor_samples import CONVERTERS, MOST_RAYS, sample_of
-from amr_description.viewer.ros.sensors import Rate, SensorFeeds
+from amr_description.viewer.ros.topic_feeds import TopicFeeds
+from amr_description.viewer.ros.topic_rate import Rate
 
 SCAN = SensorInfo('/scan', '/', 'scan', 'sensor_msgs/msg/LaserScan')
 CAMERA = SensorInfo('/image', '/', 'picture', 'sensor_msgs/msg/Image')
@@ -61,7 +63,7 @@ def opened(monkeypatch):
 
 @pytest.fixture
 def feeds():
-    return SensorFeeds(None)
+    return TopicFeeds(None, float)
 
 
 def head_of(frame):
@@ -74,17 +76,17 @@ def rest_of(frame):
 
 
 def test_what_is_not_shown_or_not_there_is_not_heard(feeds, opened):
-    feeds.watch({'/scan', '/gone'})
+    feeds.watch(Watched(sensors=frozenset({'/scan', '/gone'})))
     assert opened == []
     feeds.find([SCAN, CAMERA])
     assert [each.name for each in opened] == ['/scan']
-    feeds.watch(set())
+    feeds.watch(Watched(sensors=frozenset()))
     assert [each.is_open for each in opened] == [False]
-    assert feeds.take({'/scan'}) == []
+    assert feeds.take({('sensor', '/scan')}) == []
 
 
 def test_a_topic_that_goes_is_let_go_and_one_of_another_type_is_heard_anew(feeds, opened):
-    feeds.watch({'/scan'})
+    feeds.watch(Watched(sensors=frozenset({'/scan'})))
     feeds.find([SCAN])
     feeds.find([SCAN, CAMERA])
     feeds.find([SensorInfo('/scan', '/', 'range', 'sensor_msgs/msg/Range')])
@@ -93,12 +95,12 @@ def test_a_topic_that_goes_is_let_go_and_one_of_another_type_is_heard_anew(feeds
 
 
 def test_no_message_is_taken_for_pages_that_cannot_take_it(feeds, opened):
-    feeds.watch({'/scan'})
+    feeds.watch(Watched(sensors=frozenset({'/scan'})))
     feeds.find([SCAN])
     opened[0].publish(scan())
     assert feeds.take(set()) == []
     assert opened[0].taken == 0
-    (sample,) = feeds.take({'/scan'})
+    (sample,) = feeds.take({('sensor', '/scan')})
     assert sample.topic == '/scan'
     assert head_of(sample.frame)['type'] == 'scan'
 
@@ -114,12 +116,12 @@ def test_samples_come_at_a_bounded_rate(opened):
 
 
 def test_a_message_package_that_is_not_there_is_said_once(feeds):
-    feeds.watch({'/b'})
+    feeds.watch(Watched(sensors=frozenset({'/b'})))
     feeds.find([SensorInfo('/b', '/', 'contacts', 'no_such_msgs/msg/Contacts')])
-    (sample,) = feeds.take({'/b'})
+    (sample,) = feeds.take({('sensor', '/b')})
     assert head_of(sample.frame)['type'] == 'unreadable'
     assert "there is no package 'no_such_msgs'" in head_of(sample.frame)['text']
-    assert feeds.take({'/b'}) == []
+    assert feeds.take({('sensor', '/b')}) == []
 
 
 @pytest.mark.parametrize('is_numbered', [True, False])
@@ -134,6 +136,13 @@ def test_the_rate_is_that_of_the_topic(is_numbered):
     for number in range(1, 100):  # another publisher, which begins anew
         rate.add(NumberedMessage(b'', (4000 + 100 * number) * MS, number if is_numbered else None))
     assert rate.value == pytest.approx(10.0)
+
+
+def test_messages_without_numbers_are_counted_as_they_are_taken():
+    rate = Rate()
+    for poll in range(1, 6):
+        rate.add(NumberedMessage(b'', 500 * poll * MS, None), count=20)
+    assert rate.value == pytest.approx(40.0)
 
 
 def test_every_type_that_is_found_has_a_converter():

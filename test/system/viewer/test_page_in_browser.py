@@ -8,6 +8,7 @@ What the robot does is heard on its topics by the test itself, not believed of t
 
 from contextlib import contextmanager, ExitStack
 from math import dist, hypot
+import os
 from pathlib import Path
 import re
 import signal
@@ -23,7 +24,9 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from support import chromium
 from support.needs import need
+from support.page import Page
 from support.running_programs import PATIENCE, Program
+from test_viewer_stop import AHEAD, graph, Stranger
 
 from amr_description.clock import NANOSECONDS
 from amr_description.testing.program import own_domain
@@ -31,6 +34,13 @@ from amr_description.testing.program import own_domain
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 AT_REST = 0.01  # m/s
 CONTACTS = 'button[title="Load and slip of the wheels"]'
+COMMANDS = '/diff_drive_controller/cmd_vel'
+PRESSABLE = """(() => {
+  const stop = document.querySelector('.stop');
+  const { left, top, width, height } = stop.getBoundingClientRect();
+  const hit = document.elementFromPoint(left + width / 2, top + height / 2);
+  return width >= 44 && height >= 40 && stop.contains(hit);
+})()"""
 STOPS_WITHIN = 0.5
 """s of simulated time, from the command to stop; from 0.5 m/s the controller's limits allow it."""
 
@@ -83,6 +93,11 @@ class Ears(Node):
         """Where it truly is on the ground, m, shape (2,)."""
         position = self.truth[-1].pose.pose.position
         return position.x, position.y
+
+    @property
+    def is_upright(self):
+        turn = self.truth[-1].pose.pose.orientation
+        return 1.0 - 2.0 * (turn.x**2 + turn.y**2) > 0.999
 
     @property
     def speed(self):
@@ -235,6 +250,18 @@ def test_a_closed_tab_stops(browser, viewer, ears):
     assert ears.has_stopped() < STOPS_WITHIN
 
 
+def test_a_page_that_is_busy_drawing_drives_on(page, ears):
+    page.key_down('KeyW')
+    ears.drives()
+    before = len(ears.commands)
+    page.evaluate('for (const end = performance.now() + 700; performance.now() < end; ) {}')
+    begin = stamp_of(ears.commands[-1])
+    ears.wait(lambda: stamp_of(ears.commands[-1]) > begin + 1.0)
+    assert [each for each in ears.commands[before:] if each.twist.linear.x == 0.0] == []
+    page.key_up('KeyW')
+    ears.has_stopped()
+
+
 def test_the_joystick(page, ears):
     x, y = page.centre_of('.joystick')
     page.mouse('mousePressed', x, y)
@@ -244,6 +271,23 @@ def test_the_joystick(page, ears):
     assert ears.has_stopped() < STOPS_WITHIN
 
 
+@pytest.mark.parametrize('modifier', ['Shift', 'Control'])
+def test_a_drag_with_shift_moves_and_one_with_ctrl_pulls_the_robot(page, ears, modifier):
+    x, y = page.centre_of('canvas.scene')  # the camera follows the robot
+    begin = ears.position
+    page.mouse('mousePressed', x, y, [modifier])
+    page.mouse('mouseMoved', x + 500, y, [modifier])
+    ears.wait(lambda: dist(ears.position, begin) > 0.03)
+    page.mouse('mouseReleased', x + 500, y, [modifier])
+    ears.wait(lambda: ears.speed < AT_REST)
+    assert ears.commands == []
+    page.click('#tab-simulation')  # the others find it as it was
+    page.click('[title^="Put amr back"]')
+    ears.wait(lambda: dist(ears.position, (0.0, 0.0)) < 0.01 and ears.is_upright)
+    page.click('#tab-model')
+
+
+@pytest.mark.usefixtures('released')
 def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
     other = browser.open(url_of(viewer), is_beside=True)
     is_shown(other)
@@ -254,8 +298,117 @@ def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
     other.click('.stop')
     assert ears.has_stopped() < STOPS_WITHIN
     page.wait_until('!amr.now.driving')  # though the key is still down
+    page.wait_until("document.querySelector('.stop-word').textContent.includes('Stopped by page')")
+    page.click('.release')
+    other.wait_until("document.querySelector('.release') === null")
+    page.wait_until("document.querySelector('.release') === null && !amr.now.driving")
+    assert ears.commanded == 0.0  # the key that is still down drives nothing
     page.key_up('KeyW')
     other.close()
+
+
+@pytest.fixture
+def stranger(ears):
+    """Somebody who publishes 0.3 m/s at 10 Hz, whatever is pressed."""
+    with graph(lambda context: (Stranger(context, COMMANDS),)):
+        ears.wait(lambda: ears.speed > 0.25)
+        yield
+
+
+def stands_still(ears):
+    """Wait until it is at rest, and half a second more: it must not move, though commanded."""
+    ears.wait(lambda: ears.speed < 0.001)
+    begin, before = len(ears.truth), len(ears.commands)
+
+    def is_commanded():
+        return any(each.twist.linear.x == AHEAD for each in ears.commands[before:])
+
+    ears.wait(lambda: len(ears.truth) > begin + 25 and is_commanded())
+    velocities = (each.twist.twist.linear for each in ears.truth[begin:])
+    assert max(hypot(each.x, each.y) for each in velocities) < 0.001
+
+
+@pytest.fixture
+def released(viewer):
+    """After the test no robot is held, also where it failed: the others drive it, too."""
+    yield
+    with Page(url_of(viewer)) as last:
+        last.wait(lambda: last.last('hello'))
+        last.say('release', robot=None)
+        last.ask('play', 1, simulator='/none')  # what is answered after that
+        told = last.last('emergency_stop')
+        assert told is None or not told['robots']
+
+
+@pytest.mark.usefixtures('released', 'stranger')
+def test_stop_holds_against_a_stranger_until_it_is_released(browser, viewer, ears):
+    page = browser.open(url_of(viewer))
+    is_shown(page)
+    page.wait_until("document.querySelector('.drive-head').innerText.match('/planner drives')")
+    page.key_down('Tab')  # what is focused from now on is seen to be
+    page.evaluate("document.querySelector('.view-tools [aria-pressed]').focus()")
+    before = page.evaluate("document.activeElement.getAttribute('aria-pressed')")
+    page.key_down('Space', ' ')
+    page.key_up('Space', ' ')
+    page.wait_until("document.querySelector('.stop-word').textContent.match('Stands still')")
+    page.wait_until("document.querySelector('.stop-word').textContent.includes('/planner, 10 Hz')")
+    assert page.evaluate("document.activeElement.getAttribute('aria-pressed')") == before
+    stands_still(ears)
+    page.close()
+    stands_still(ears)
+    page = browser.open(url_of(viewer))
+    is_shown(page)
+    page.wait_until("document.querySelector('.stop-word').textContent.match('Stands still')")
+    page.click('.release')
+    ears.wait(lambda: ears.speed > 0.25)
+    page.close()
+
+
+@pytest.mark.parametrize(
+    ('width', 'height'), [(1440, 900), (960, 540), (390, 844), (320, 568), (844, 390), (667, 375)]
+)
+def test_stop_can_be_pressed_whatever_is_shown(page, width, height):
+    """Also with the panels open, without a robot that drives, without any, and without a link."""
+    page.look_like(width, height, phone=width < 900)
+    opened = "document.querySelector('.sheet').inert"
+    for is_open in (False, True):
+        if page.evaluate(opened) == is_open:
+            page.evaluate("document.querySelector('.open-panels').click()")
+        page.wait_until(f'{opened} === {str(not is_open).lower()}')
+        for kind in ('', 'still', 'blind'):
+            page.evaluate(f"document.body.classList.toggle('{kind or 'x'}', true)")
+            assert page.evaluate(PRESSABLE), (width, height, is_open, kind)
+            page.evaluate(f"document.body.classList.toggle('{kind or 'x'}', false)")
+    page.look_like()
+
+
+def test_what_stands_still_is_said_to_be_old(page, simulation, ears):
+    """The simulator is stopped as Ctrl-Z does, and goes on."""
+    page.wait_until("document.querySelector('.chip.link').textContent === 'Connected'")
+    (simulator,) = descendants(simulation.process.pid, 'mujoco_sim')
+    os.kill(simulator, signal.SIGSTOP)
+    try:
+        page.wait_until(
+            "document.querySelector('.chip.link').textContent.match('No data for 2 s')"
+        )
+        assert page.evaluate("document.querySelectorAll('.readout .stale').length") == 2
+        assert page.evaluate("document.querySelector('.factor').textContent") == '–'
+        assert page.evaluate("document.body.classList.contains('stale')")
+    finally:
+        os.kill(simulator, signal.SIGCONT)
+    page.wait_until("document.querySelector('.chip.link').textContent === 'Connected'")
+    page.wait_until("document.querySelectorAll('.readout .stale').length === 0")
+
+
+def descendants(parent, name):
+    """The processes below another one that run this program."""
+    found = []
+    for path in Path('/proc').glob(f'{parent}/task/*/children'):
+        for child in path.read_text().split():
+            if f'/{name}\0' in Path(f'/proc/{child}/cmdline').read_text():
+                found.append(int(child))
+            found += descendants(child, name)
+    return found
 
 
 def test_wheels_are_heard_while_their_table_or_their_layer_is_shown(page, ears):
@@ -295,6 +448,27 @@ def test_pause_step_play_and_reset(page, ears):
     assert page.errors == []
 
 
+def test_a_spawned_robot_comes_into_view_and_a_deleted_one_goes_with_its_trails(page):
+    page.click('#tab-simulation')
+    places = (
+        "[...document.querySelectorAll('.spawn input[type=number]')].map((e) => e.value).join()"
+    )
+    page.wait_until("document.querySelector('.spawn [name=x]').value !== ''")
+    offered = page.evaluate(places)
+    page.click('.spawn [type=submit]')
+    page.wait_until("/Spawning robot1/.test(document.querySelector('.spawn').innerText)")
+    page.wait_until("'/robot1' in amr.now.scene.trails")
+    page.wait_until("!document.querySelector('.spawn [type=submit]').disabled")
+    page.wait_until(f'{places} !== "{offered}"')  # the next place that is free
+    names = "[...document.querySelectorAll('header option')].map((each) => each.innerText).join()"
+    assert page.evaluate(names) == 'amr,robot1'
+    for _ in range(2):
+        page.click('[title="Take robot1 out of the world"]')
+    page.wait_until("!('/robot1' in amr.now.scene.trails)")
+    page.wait_until(f'{names} === "amr"')
+    page.click('#tab-model')
+
+
 def test_the_page_comes_back_when_the_server_does(browser, simulation):
     with ExitStack() as stack:
         first = stack.enter_context(serving())
@@ -329,6 +503,13 @@ def test_an_empty_graph_says_what_to_start(browser):
     with own_domain(), serving() as program:
         page = browser.open(url_of(program))
         page.wait_until("document.body.innerText.match('nothing publishes /robot_description')")
+        assert page.evaluate(PRESSABLE)
+        page.key_down('Escape')
+        page.wait_until(
+            "document.querySelector('.stop-word').textContent.match('No robot is there')"
+        )
+        page.click('.release')
+        page.wait_until("document.querySelector('.release') === null")
         assert page.errors == []
         page.close()
         assert program.end(signal.SIGINT) == 0

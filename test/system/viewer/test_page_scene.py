@@ -33,6 +33,9 @@ CONTROLS = {
 TRIANGLES = 1202
 """What is drawn of it, twice for the shadows; 48 are of meshes, which come one after the other."""
 MOVED = 'joint_wheel_front_left'
+SHOWN = 5
+"""s of simulated time after which the page has had one state more; if slow, not many more."""
+PAUSE = "document.querySelector('.plot-tools .toggle')"
 MOST_TABS = 40
 """Presses of the key until the stop button is reached."""
 
@@ -56,13 +59,14 @@ def display(browser):
 def driven(browser):
     """The page of a robot that drives in circles, for a minute, and has a joint to be moved."""
     drive = LongDrive()
-    drive.end = 60.0
     claims = (f'{MOVED}/position',)
     movers = (ControllerInfo('mover', 'x/Mecanum', 'active', claims, moves=(MOVED,)),)
     drive.known += (Controllers('/', movers, ()),)
     with serving(drive) as server:
         page = browser.open(server.url, pixels=1.0, is_beside=True)
-        page.wait_until('amr.now.scene.frames > 0 && amr.now.time >= 60')
+        page.wait_until('amr.now.scene.frames > 0')
+        for drive.end in range(SHOWN, 60 + SHOWN, SHOWN):
+            page.wait_until(f'amr.now.time >= {drive.end}')
         page.calls = drive.calls
         yield page
         assert page.errors == []
@@ -104,6 +108,27 @@ def press(page, name):
     page.click('[data-pressed]')
 
 
+WRITTEN = """(() => {
+    const names = document.querySelector('canvas.scene + canvas');
+    const {data} = names.getContext('2d').getImageData(0, 0, names.width, names.height);
+    return data.some((value) => value > 0);
+  })()"""
+"""Whether a name stands in the scene."""
+
+
+def choose_nothing(page):
+    """Click beside the robot."""
+    x, y = page.evaluate(
+        """(() => {
+          const canvas = document.querySelector('canvas.scene');
+          const {left, top, height} = canvas.getBoundingClientRect();
+          return [left + 8, top + height / 2];
+        })()"""
+    )
+    page.mouse('mousePressed', x, y)
+    page.mouse('mouseReleased', x, y)
+
+
 def test_meshes_are_drawn(display):
     display.wait_until(
         """performance.getEntriesByType('resource').some(
@@ -127,7 +152,8 @@ def test_another_frame_is_held_still(display):
     display.click('#tab-frames')
     press(display, 'base_link')
     before = display.evaluate('amr.now.scene.frames')
-    display.wait_until("document.querySelector('#fixed-frame option[value=antenna]')")
+    options = "[...document.querySelector('#fixed-frame').options].map(({value}) => value)"
+    display.wait_until(f"{options}.includes('antenna')")
     for name in ('antenna', ''):
         display.evaluate(
             f"""(() => {{
@@ -142,20 +168,64 @@ def test_another_frame_is_held_still(display):
         display.wait_until(f"{found}.includes('{name or 'base_footprint'}')")
 
 
-def test_frames_and_their_names_are_shown_and_hidden(display):
-    written = """(() => {
-        const names = document.querySelector('canvas.scene + canvas');
-        const {data} = names.getContext('2d').getImageData(0, 0, names.width, names.height);
-        return data.some((value) => value > 0);
+def test_a_frame_chosen_in_the_tree_is_lit_up_in_the_scene_with_what_its_link_weighs(display):
+    display.click('#tab-frames')
+    choose_nothing(display)
+    display.wait_until(f'!{WRITTEN}')
+    before = display.evaluate('amr.now.scene.triangles')
+    press(display, 'antenna')
+    display.wait_until(WRITTEN)
+    display.wait_until(f'amr.now.scene.triangles > {before} + 500')  # the ellipsoid
+    titles = "[...document.querySelectorAll('#panel-frames h3')].map((each) => each.innerText)"
+    assert 'Link antenna' in display.evaluate(titles)
+    choose_nothing(display)
+    display.wait_until(f'amr.now.scene.triangles === {before}')
+
+
+def test_keys_move_the_camera_and_not_the_robot(display):
+    display.evaluate("document.querySelector('canvas.scene').focus()")
+    assert display.evaluate("document.activeElement.matches('canvas.scene')")
+    for code, key, modifiers in (
+        ('ArrowLeft', 'ArrowLeft', ('Shift',)),
+        ('Equal', '+', ()),
+        ('Home', 'Home', ()),
+    ):
+        before = display.evaluate('amr.now.scene.frames')
+        display.key_down(code, key, modifiers)
+        display.wait_until(f'amr.now.scene.frames > {before}')
+        assert not display.evaluate('amr.now.driving')
+        display.key_up(code, key, modifiers)
+    display.evaluate('document.activeElement.blur()')
+
+
+def test_a_picture_that_stands_still_is_drawn_finely_once(display):
+    """Finer than the screen, where the processor draws without smoothing edges."""
+    fine = """(() => {
+        const {width, clientWidth} = document.querySelector('canvas.scene');
+        return width > 1.5 * devicePixelRatio * clientWidth;
       })()"""
+    display.wait_until(fine)
+    before = display.evaluate('amr.now.scene.frames')
+    for _ in range(20):
+        display.evaluate('new Promise(requestAnimationFrame)')
+    assert display.evaluate('amr.now.scene.frames') == before
+
+
+def test_frames_and_their_names_are_shown_and_hidden(display):
+    choose_nothing(display)
+    display.wait_until(f'!{WRITTEN}')
+    disabled = """[...document.querySelectorAll('.view-tools button')]
+        .find((each) => each.innerText === 'Names').disabled"""
+    assert display.evaluate(disabled)  # without frames it would do nothing
     before = display.evaluate('amr.now.scene.triangles')
     press(display, 'Frames')
     display.wait_until(f'amr.now.scene.triangles > {before}')
-    assert not display.evaluate(written)
+    assert not display.evaluate(disabled)
+    assert not display.evaluate(WRITTEN)
     press(display, 'Names')
-    display.wait_until(written)
+    display.wait_until(WRITTEN)
     press(display, 'Names')
-    display.wait_until(f'!{written}')
+    display.wait_until(f'!{WRITTEN}')
     press(display, 'Frames')
     display.wait_until(f'amr.now.scene.triangles === {before}')
 
@@ -178,20 +248,45 @@ def test_samples_are_saved_as_a_table(driven):
           URL.createObjectURL = (content) => make(window.saved = content);
         })()"""
     )
+    driven.click('.plots .menu summary')
     press(driven, 'CSV')
     driven.wait_until('window.saved instanceof Blob')
     head, *rows = csv.reader(io.StringIO(driven.evaluate('saved.text()')))
     wheel = 'joint_wheel_front_left'
-    assert head[:3] == ['time_s', 'command_linear_m_s', 'command_angular_rad_s']
-    assert {f'{wheel}_rad_s', f'{wheel}_commanded_rad_s', 'real_time_factor'} <= {*head}
-    assert len(rows) > 10
+    assert head[:3] == ['time_s', 'command_linear_m_s', 'odometry_linear_m_s']
+    assert {'truth_angular_rad_s', f'{wheel}_rad_s', f'{wheel}_commanded_rad_s'} <= {*head}
+    assert 'real_time_factor' not in head  # there is no simulator
+    assert len(rows) > 1  # a page that is slow is not sent all states
     times = [float(row[0]) for row in rows]
     assert times == sorted(set(times))
     assert times[-1] == 60.0
     last = dict(zip(head, rows[-1], strict=True))
     assert (last['command_linear_m_s'], last['odometry_linear_m_s']) == ('0.5', '0.5')
     assert float(last[f'{wheel}_rad_s']) == pytest.approx(6.0)
-    assert last['real_time_factor'] == ''  # there is no simulator
+
+
+def test_plots_are_zoomed_under_one_cursor_shared_and_resized(driven):
+    charts = driven.evaluate("document.querySelectorAll('.chart:not([hidden])').length")
+    driven.wait_until(f"{PAUSE}.ariaPressed === 'false'")
+    driven.wheel('.chart-plot', -200)
+    driven.wait_until(f"{PAUSE}.ariaPressed === 'true'")
+    x, y = driven.centre_of('.chart-plot')
+    driven.mouse('mouseMoved', x, y)
+    driven.wait_until(
+        "[...document.querySelectorAll('.chart:not([hidden]) .chart-cursor:not([hidden])')]"
+        rf'.filter((each) => /^\d+\.\d\d s$/.test(each.innerText)).length === {charts}'
+    )
+    driven.click('.plot-tools .toggle')
+    driven.wait_until(f"{PAUSE}.ariaPressed === 'false'")
+    before = driven.evaluate("document.querySelector('.chart-plot canvas').clientHeight")
+    driven.evaluate("document.querySelector('.splitter').focus()")
+    driven.key_down('ArrowUp')
+    driven.key_up('ArrowUp')
+    driven.wait_until(f"document.querySelector('.chart-plot canvas').clientHeight > {before}")
+    driven.click('.plots .menu summary')
+    press(driven, 'Copy link')
+    driven.wait_until("location.hash === '#plots=linear;angular;wheels;factor'")
+    driven.evaluate("document.querySelector('.splitter').dispatchEvent(new Event('dblclick'))")
 
 
 def test_a_slider_commands_the_controller_of_its_joint_and_a_button_goes_sideways(driven):

@@ -58,9 +58,9 @@ class Sensors(LongDrive):
         self._shown = frozenset()
         self._changed = threading.Condition()
 
-    def watch(self, parts, topics):
+    def watch(self, watched):
         with self._changed:
-            self._shown = topics
+            self._shown = watched.sensors
             self._changed.notify_all()
 
     def wait_shown(self, *topics):
@@ -70,7 +70,7 @@ class Sensors(LongDrive):
 
     def take_samples(self, wanted):
         return [sample for each in self.made for sample in [each(self.time)]
-                if sample.topic in wanted]  # fmt: skip
+                if ('sensor', sample.topic) in wanted]  # fmt: skip
 
 
 @pytest.fixture(scope='module')
@@ -80,7 +80,7 @@ def served(browser):
     with serving(robot, rate=20.0) as server:
         page = browser.open(server.url, width=1000, height=320)
         page.wait_until("amr.now.link === 'open' && amr.now.scene.frames > 0")
-        robot.until(page, 30.0)
+        robot.show(page, 15)
         yield robot, page
         assert page.errors == []
         page.close()

@@ -18,6 +18,7 @@ from support.page import deaf, Page
 from support.running_programs import PATIENCE
 
 from amr_description.errors import ViewerError
+from amr_description.viewer.backend import Answer
 from amr_description.viewer.protocol import Driver, Notice, TimeReset
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server, ServerSettings, STATIC
@@ -42,13 +43,13 @@ class Backend:
     def close(self):
         self.calls.append('close')
 
-    def watch(self, parts, topics):
-        self.calls.append([*sorted(parts), *sorted(topics)])
+    def watch(self, watched):
+        self.calls.append([*sorted(watched.parts), *sorted(watched.sensors)])
 
     def take_samples(self, wanted):
         self.wanted.append(wanted)
         new, self.samples = self.samples, []
-        return [sample for sample in new if sample.topic in wanted]
+        return [each for each in new if (each.channel, each.topic) in wanted]
 
     def take_state(self):
         new, self.new = self.new, ()
@@ -64,6 +65,11 @@ class Backend:
             raise ViewerError(f'there is no robot {robot}')
         self.calls.append((linear, angular, sideways) if sideways else (linear, angular))
 
+    def push(self, simulator, entity, link, force, torque):
+        if simulator != '/sim':
+            raise ViewerError(f'there is no simulator {simulator}')
+        self.calls.append(('push', entity, link, force))
+
     def hold_joints(self, robot):
         if self.joints_are_moved:
             self.calls.append(f'hold {robot}')
@@ -71,10 +77,16 @@ class Backend:
     def set_joints(self, robot, positions):
         self.calls.append(positions)
 
-    async def handle(self, request):
+    async def handle(self, request, page):
         if request.simulator == 'broken':
             raise ZeroDivisionError('oh')
-        return f'{request.type} is done'
+        return Answer(f'{request.type} is done')
+
+    def forget(self, page):
+        pass
+
+    def latest(self, part):
+        return None
 
     def mesh(self, name):
         return None
@@ -103,6 +115,22 @@ def server(backend):
     with serving(backend) as server:
         yield server
     assert server.logged.empty()
+
+
+def test_what_is_called_while_the_server_ends_starts_nothing(backend):
+    """ROS calls until it has ended, too: a task that is left over is an error in the log."""
+    with serving(backend) as server:
+        loop = server._loop
+        shut_down = loop.shutdown_default_executor
+
+        async def late():
+            server.call(lambda: loop.create_task(asyncio.sleep(PATIENCE)))
+            await asyncio.sleep(0)
+            await shut_down()
+
+        loop.shutdown_default_executor = late
+    gc.collect()
+    assert server.logged.empty(), server.logged.get()
 
 
 def test_a_port_that_is_in_use_is_skipped(backend):
@@ -220,7 +248,7 @@ class Camera(Backend):
 
     def take_samples(self, wanted):
         self.wanted.append(wanted)
-        if '/image' not in wanted:
+        if ('sensor', '/image') not in wanted:
             return []
         self.count += 1
         return [Sample('/image', self.count.to_bytes(4) + LARGE)]
@@ -238,7 +266,7 @@ def test_a_page_that_does_not_read_makes_no_queue_of_pictures():
         behind = pages['page 1']
         assert 0 < behind.buffered <= len(LARGE) + 32 * 1024
         assert len(behind.waiting) == 1
-        assert int.from_bytes(behind.waiting['/image'][:4]) > 30
+        assert int.from_bytes(behind.waiting['sensor', '/image'][:4]) > 30
         assert len(server._pages._samples) == 1
     assert server.logged.empty()
 
@@ -371,7 +399,7 @@ def test_a_server_that_ends_stops_the_robot_of_a_page(backend):
 def test_a_server_that_ends_waits_for_no_answer_and_leaves_no_task(backend, monkeypatch):
     asked, tasks = threading.Event(), []
 
-    async def never_answer(_request):
+    async def never_answer(*_):
         asked.set()
         try:
             await asyncio.get_running_loop().create_future()

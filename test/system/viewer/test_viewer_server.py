@@ -14,7 +14,7 @@ from support.page import deaf, open_socket, Page
 from support.running_programs import PATIENCE, Program
 from websockets.exceptions import InvalidHandshake, InvalidStatus
 
-from amr_description.viewer.sessions import MOST_PAGES
+from amr_description.viewer.pages import MOST_PAGES
 
 URL = re.compile(r'The page is at (http://\S+)')
 DRIVE = '{"type": "drive", "robot": "/", "linear": 0.1, "angular": 0}'
@@ -63,9 +63,10 @@ def ask(url, method='GET', path='/', **headers):
         connection.putheader(name.replace('_', '-'), value)
     connection.endheaders()
     answer = connection.getresponse()
-    body = answer.read().decode()
+    body = answer.read()
     connection.close()
-    return answer.status, answer.headers, body
+    is_text = answer.headers['Content-Encoding'] is None and path != '/main.js'
+    return answer.status, answer.headers, body.decode() if is_text else body
 
 
 def address(url):
@@ -98,6 +99,26 @@ def test_what_the_browser_has_is_not_sent_again(url):
     status, _, again = ask(url, If_None_Match=headers['ETag'])
     assert (status, again) == (304, '')
     assert ask(url, If_None_Match='"old"')[2] == body
+
+
+@pytest.mark.parametrize(
+    ('accepted', 'encoding'),
+    [
+        ('gzip, deflate, br, zstd', 'br'),
+        ('gzip, deflate', 'gzip'),
+        ('br;q=0, gzip;q=0.5', 'gzip'),
+        ('identity', None),
+    ],
+)
+def test_the_page_is_compressed_as_the_browser_takes_it(url, accepted, encoding):
+    _, headers, body = ask(url, path='/main.js', Accept_Encoding=accepted)
+    assert headers['Content-Encoding'] == encoding
+    assert headers['Vary'] == 'Accept-Encoding'
+    assert int(headers['Content-Length']) == len(body)
+    status, _, again = ask(
+        url, path='/main.js', Accept_Encoding=accepted, If_None_Match=headers['ETag']
+    )
+    assert (status, again) == (304, b'')
 
 
 @pytest.mark.parametrize(
@@ -172,7 +193,7 @@ def test_a_page_of_another_version_is_refused(url, page, subprotocols):
         ('[' * 60_000, 1008, 'no JSON'),
         (DRIVE.replace('0.1', 'NaN'), 1008, 'linear'),
         (b'\xff\x00', 1008, 'binary'),
-        ('x' * 70_000, 1009, ''),
+        ('x' * 1_100_000, 1009, ''),
         ('{"a": "' + 'é' * 10_000_000 + '"}', 1009, ''),
     ],
 )

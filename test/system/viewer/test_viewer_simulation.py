@@ -22,6 +22,10 @@ SIMULATOR = '/mujoco_sim'
 CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
 
 
+LINKS = {f'robot1/{name}' for name in ('base_link', 'wheel_front_left', 'wheel_back_right')}
+"""Frames of a robot that a page spawned: of a fixed joint, of moving ones."""
+
+
 class Asker:
     """Numbers the requests of a page to the simulator."""
 
@@ -88,6 +92,12 @@ def driven(page, ask):
     page.wait(lambda: robot(page, '/')['command'] and robot(page, '/')['truth'])
 
 
+def diagnosed(page, name):
+    """Names of the statuses of a robot's diagnostics, as last told."""
+    told = [each for each in page.of('diagnostics') if each['robot'] == name]
+    return {each['name'] for each in told[-1]['items']} if told else set()
+
+
 def simulators(page):
     return (page.last('graph') or {'simulators': []})['simulators']
 
@@ -135,6 +145,12 @@ def place(page, name):
     return None if math.isnan(x) else (x, y)
 
 
+def height(page, name):
+    """Of the robot's base over the ground, m, by the last state; not a number: not known."""
+    found = last_state(page, name)
+    return float(found[1][3 * len(found[0]['joints']) + 12]) if found else math.nan
+
+
 def speed(page, name):
     """How fast the robot truly goes ahead, m/s, by the last state; not a number: not known."""
     found = last_state(page, name)
@@ -149,6 +165,12 @@ def commanded(page, name):
     layout, numbers = found
     count = len(layout['joints'])
     return numbers[2 * count : 3 * count].tolist()
+
+
+def command(page, name):
+    """The velocity that is commanded ahead by the last state, m/s; not a number: none is."""
+    found = last_state(page, name)
+    return float(found[1][3 * len(found[0]['joints']) + 20]) if found else math.nan
 
 
 def wheels_of(page, name):
@@ -246,6 +268,7 @@ def test_a_robot_stops_by_itself_when_the_viewer_is_killed(page, driven):
         killed.signal(signal.SIGKILL)
         driver.wait_closed()
     page.wait(lambda: abs(speed(page, '/')) < 0.01)
+    page.wait(lambda: math.isnan(command(page, '/')))  # its time-out has ended the command
 
 
 def test_a_page_switches_controllers(page, ask, driven):
@@ -269,6 +292,9 @@ def test_a_page_spawns_another_that_can_be_driven_and_deletes_it(page, ask, driv
     page.wait(lambda: robot(page, '/robot1') and robot(page, '/robot1')['command'])
     start = page.wait(lambda: place(page, '/robot1'))
     drive_until(page, '/robot1', lambda: distance(page, '/robot1', start) > 0.05)
+    page.wait(lambda: {each['name'] for each in page.last('layout')['frames']} >= LINKS)
+    page.wait(lambda: diagnosed(page, '/robot1') and diagnosed(page, '/'))
+    assert not diagnosed(page, '/') & diagnosed(page, '/robot1')
     page.wait(lambda: 'robot1' in simulators(page)[0]['entities'])
     ok, message = ask.spawn('robot1', '/robot1', 2.0)
     assert (ok, 'robot1' in message) == (False, True)
@@ -279,7 +305,81 @@ def test_a_page_spawns_another_that_can_be_driven_and_deletes_it(page, ask, driv
     assert (ok, "no entity 'robot1'" in message) == (False, True)
 
 
+def test_a_page_puts_a_robot_elsewhere_and_back(page, ask, driven):
+    ok, message = ask.simulator('place', name='amr', position=[2.0, -1.0, 0.1], yaw=1.0)
+    assert (ok, message) == (True, "'amr' stands where it was put")
+    page.wait(lambda: distance(page, '/', (2.0, -1.0)) < 0.02)
+    ok, message = ask.simulator('reset_entity', name='amr')
+    assert (ok, message) == (True, "'amr' stands where it was spawned")
+    page.wait(lambda: distance(page, '/', (0.0, 0.5)) < 0.02)
+    ok, message = ask.simulator('reset_entity', name='nobody')
+    assert (ok, "where 'nobody' was spawned is not known" in message) == (False, True)
+    ok, message = ask.simulator('place', name='nobody', position=[0.0, 0.0, 0.0], yaw=0.0)
+    assert (ok, "no entity 'nobody'" in message) == (False, True)
+
+
+def test_a_page_pushes_a_robot_which_rests_when_the_page_falls_silent(page, ask, driven):
+    push = {'simulator': SIMULATOR, 'entity': 'amr', 'link': 'base_link', 'torque': [0.0] * 3}
+    start = page.wait(lambda: place(page, '/'))
+
+    def is_lifted():
+        page.say('push', force=[0.0, 0.0, 300.0], **push)
+        return height(page, '/') > 0.3
+
+    page.wait(is_lifted)
+    page.wait(lambda: height(page, '/') < 0.05)  # and nobody let it go
+    assert distance(page, '/', start) < 0.5
+    assert ask.simulator('reset_entity', name='amr')[0]
+
+
+def test_a_page_spawns_a_description_of_its_own(page, ask, driven):
+    crate = (
+        '<?xml version="1.0"?>\n<robot name="crate">\n'
+        '<link name="box"><inertial><mass value="1"/><inertia ixx="0.01" '
+        'iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry>'
+        '<box size="0.2 0.2 0.2"/></geometry></collision></link></robot>'
+    )
+    place = {'position': [-2.0, 0.0, 0.3], 'yaw': 0.0}
+    new = {'name': 'crate', 'namespace': '/crate', 'like': None, **place}
+    assert ask.simulator('spawn', urdf=crate, **new) == (True, "'crate' is in the world")
+    model = page.wait(lambda: next((m for m in page.of('model') if m['robot'] == '/crate'), None))
+    assert model['root'] == 'box'
+    ok, message = ask.simulator('spawn', urdf='<robot', **(new | {'name': 'other'}))
+    assert not ok
+    ok, message = ask.simulator('spawn', **(new | {'name': 'other'}))
+    assert (ok, message) == (False, 'a robot to spawn has a URDF, or is like another one')
+    assert ask.simulator('delete', name='crate')[0]
+
+
+def test_a_page_changes_the_world_around_its_robots(page, ask, driven):
+    page.wait(lambda: 'empty' in simulators(page)[0]['worlds'])
+    assert simulators(page)[0]['world'] == 'walls'
+    before = len(page.of('world'))
+    ok, message = ask.simulator('load_world', name='empty')
+    assert (ok, message) == (True, "the world is 'empty', with 'amr'")
+    page.wait(lambda: len(page.of('world')) > before)
+    assert 'east' not in [shape['name'] for shape in page.last('world')['shapes']]
+    page.wait(lambda: simulators(page)[0]['world'] == 'empty')
+    page.wait(lambda: status(page, 'state') == 'playing')
+    page.wait(lambda: states_of(page, '/') == dict.fromkeys(CONTROLLERS, 'active'))
+    start = page.wait(lambda: place(page, '/'))
+    drive_until(page, '/', lambda: distance(page, '/', start) > 0.05)
+    ok, message = ask.simulator('load_world', name='nowhere')
+    assert (ok, "there is no world 'nowhere' to load; there are:" in message) == (False, True)
+
+
 def test_a_page_resets_and_is_told_that_time_went_back(page, ask, driven):
     assert ask.simulator('reset_simulation')[0]
     assert page.wait(lambda: page.last('reset'))['time'] >= 0.0
     page.wait(lambda: place(page, '/') and distance(page, '/', (0.0, 0.5)) < 0.02)
+
+
+def test_a_deleted_robot_is_only_described(page, ask, driven):
+    """Its description is published on; another robot can be made like it."""
+    assert robot(page, '/')['present']
+    assert ask.simulator('delete', name='amr')[0]
+    page.wait(lambda: not robot(page, '/')['present'])
+    assert ask.spawn('again', '/again', 0.0)[0]
+    page.wait(lambda: robot(page, '/again') and robot(page, '/again')['present'])
+    assert ask.simulator('delete', name='again')[0]
+    page.wait(lambda: robot(page, '/again') is None)

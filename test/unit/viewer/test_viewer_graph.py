@@ -12,13 +12,18 @@ from amr_description.viewer.graph import (
     COMPRESSED_IMAGE,
     discover,
     DYNAMIC_JOINT_STATE,
+    GOAL,
     GraphNames,
     IMAGE,
+    INITIAL_POSE,
     JOINT_STATE,
     LASER_SCAN,
     LIST_CONTROLLERS,
     MARKERS,
+    NAVIGATE_FEEDBACK,
+    OCCUPANCY_GRID,
     ODOMETRY,
+    PATH,
     RANGE,
     robot_of,
     SET_SIMULATION_STATE,
@@ -27,6 +32,7 @@ from amr_description.viewer.graph import (
     TF,
     TWISTS,
 )
+from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.protocol import Command
 
 STAMPED, PLAIN = TWISTS
@@ -98,6 +104,7 @@ def test_names_in_the_namespace_belong_to_the_robot(place):
     assert dataclasses.asdict(found) == {
         'id': place or '/',
         'description': f'{place}/robot_description',
+        'is_present': True,
         'command': {'topic': f'{place}/diff_drive_controller/cmd_vel', 'message': STAMPED},
         'odometry': f'{place}/odom',
         'truth': f'{place}/ground_truth/odom',
@@ -108,6 +115,7 @@ def test_names_in_the_namespace_belong_to_the_robot(place):
         'activity': f'{place}/controller_manager/activity',
         'introspection': f'{place}/controller_manager/introspection_data',
         'joint_commands': (),
+        'drive_parameters': None,
     }
 
 
@@ -120,14 +128,6 @@ def test_robots_in_nested_namespaces_keep_their_own_names():
     assert [each.odometry for each in found] == [
         f'{place}/odom' for place in ('', '/r1', '/r1/arm', '/r10')
     ]
-
-
-def test_a_robot_described_elsewhere_is_found_while_its_ground_truth_is_published():
-    there = {'/r1/ground_truth/odom': [ODOMETRY], '/r1/odom': [ODOMETRY]}
-    (found,) = discover(GraphNames(there), ['/r1', '/r2']).robots
-    assert (found.id, found.truth, found.odometry) == ('/r1', '/r1/ground_truth/odom', '/r1/odom')
-    assert discover(GraphNames({'/r1/odom': [ODOMETRY]}), ['/r1']).robots == ()
-    assert discover(GraphNames(there)).robots == ()
 
 
 def test_nothing_is_found_in_nothing():
@@ -143,7 +143,23 @@ def test_a_description_that_is_only_subscribed_is_no_robot():
 def test_a_robot_may_have_nothing_but_a_description():
     (found,) = discover(names(published={'/robot_description': [STRING]})).robots
     values = dataclasses.asdict(found)
-    assert {key for key, value in values.items() if value} == {'id', 'description'}
+    assert {key for key, value in values.items() if value} == {'id', 'description', 'is_present'}
+
+
+def test_a_robot_that_the_simulator_does_not_have_is_described_but_not_present():
+    simulator = {'/mujoco_sim/set_simulation_state': [SET_SIMULATION_STATE]}
+    described = {
+        f'{each}/robot_description': [STRING] for each in ('', '/fleet', '/r1')
+    }  # '/' was deleted, /fleet has nothing but fixed frames
+    static = {'/tf_static': [TF], '/tf': [TF]}
+    there = names('/r1', published=described | static, services=simulator)
+    present = {each.id: each.is_present for each in discover(there).robots}
+    assert present == {'/': False, '/fleet': False, '/r1': True}
+    alone = names(published={'/robot_description': [STRING]}, services=simulator)
+    assert [each.is_present for each in discover(alone).robots] == [False]
+    joints = names(published={'/robot_description': [STRING], '/joint_states': [JOINT_STATE]})
+    real = GraphNames(joints.published, {}, simulator)
+    assert [each.is_present for each in discover(real).robots] == [True]
 
 
 @pytest.mark.parametrize(
@@ -213,3 +229,60 @@ def test_namespaces_with_their_own_tf_are_found():
     topics = ('/tf', '/tf_static', '/r2/tf', '/r1/tf', '/r1/tf_static', '/r3/tf_old')
     found = discover(names(published={each: [TF] for each in topics} | {'/r4/tf': [STRING]}))
     assert found.tf_namespaces == ('/r1', '/r2')
+
+
+@pytest.mark.parametrize('node', ['/diff_drive_controller', '/r1/mecanum_drive_controller'])
+def test_the_time_out_of_commands_is_asked_of_the_controller_that_takes_them(node):
+    place = node.rpartition('/')[0]
+    topic, service = f'{node}/cmd_vel', f'{node}/get_parameters'
+    described = {f'{place}/robot_description': [STRING]}
+    services = {service: ['rcl_interfaces/srv/GetParameters']}
+    (found,) = discover(GraphNames(described, {topic: [STAMPED]}, services)).robots
+    assert found.drive_parameters == service
+    (found,) = discover(GraphNames(described, {'/r1/cmd_vel': [STAMPED]}, services)).robots
+    assert found.drive_parameters is None
+
+
+def navigators(*places, published=(), subscribed=None):
+    found = names(
+        *places,
+        published={each: [NAVIGATE_FEEDBACK] for each in published},
+        subscribed=subscribed,
+    )
+    return discover(found).navigators
+
+
+def test_a_map_of_no_robot_is_for_all_and_a_path_is_its_robots():
+    found = discover(
+        names(
+            '/a', '/b', published={'/map': [OCCUPANCY_GRID], '/a/plan': [PATH], '/scan': [RANGE]}
+        )
+    )
+    assert [(each.topic, each.robot, each.kind) for each in found.sensors] == [
+        ('/a/plan', '/a', 'path'),
+        ('/map', '', 'map'),
+    ]
+
+
+def test_who_hears_goals_and_poses_navigates_the_robot_of_that_namespace():
+    hears = {'/a/goal_pose': [GOAL], '/a/initialpose': [INITIAL_POSE], '/b/other': [GOAL]}
+    assert navigators('/a', '/b', subscribed=hears) == (
+        Navigator('/a', '/a/goal_pose', None, '/a/initialpose'),
+    )
+    assert navigators('/a', '/b', subscribed={'/goal_pose': [GOAL]}) == (), 'whose would it be?'
+
+
+def test_a_robot_that_is_alone_is_navigated_outside_its_namespace_too():
+    hears = {'/goal_pose': [GOAL]}
+    assert navigators('/a', subscribed=hears) == (Navigator('/a', '/goal_pose', None, None),)
+    both = {**hears, '/a/goal_pose': [GOAL]}
+    assert navigators('/a', subscribed=both)[0].goal == '/a/goal_pose'
+
+
+def test_the_action_is_there_as_long_as_its_server_publishes():
+    feedback = '/a/navigate_to_pose/_action/feedback'
+    assert navigators('/a', published=[feedback]) == (
+        Navigator('/a', None, '/a/navigate_to_pose', None),
+    )
+    others = ['/a/spin/_action/feedback']
+    assert navigators('/a', published=others) == ()

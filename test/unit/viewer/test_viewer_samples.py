@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The binary frames of sensors: as web/src/protocol.ts lays them out."""
+"""The binary frames of sensors: as the page reads them."""
 
 import json
 import struct

@@ -7,12 +7,13 @@ import type { Pilot } from './pilot';
 
 const MODIFIERS = new Set(['MetaLeft', 'MetaRight', 'ControlLeft', 'ControlRight', 'AltLeft']);
 
-export function listenToKeys(pilot: Pilot): void {
+/** `isDriven`: whether anybody drives anything. */
+export function listenToKeys(pilot: Pilot, isDriven: () => boolean): void {
   const down = new Set<string>();
   const tell = (): void => pilot.set('keys', down.size === 0 ? null : fromKeys(down));
 
   window.addEventListener('keydown', (event) => {
-    if (event.code === 'Escape' || (event.code === 'Space' && isStop(event, pilot))) {
+    if (event.code === 'Escape' || (event.code === 'Space' && isStop(event, isDriven()))) {
       event.preventDefault();
       pilot.stop();
     } else if (MODIFIERS.has(event.code)) {
@@ -52,12 +53,12 @@ function isForDriving(event: KeyboardEvent): boolean {
 }
 
 /**
- * Space is for a button that was reached with the keyboard, but never while the robot drives: who
- * clicked a button and then hits Space in a hurry wants to stop.
+ * Space is for a button that was reached with the keyboard, but never while a robot is driven, by
+ * whomever: who hits Space in a hurry wants to stop.
  */
-function isStop(event: KeyboardEvent, pilot: Pilot): boolean {
+function isStop(event: KeyboardEvent, isDriven: boolean): boolean {
   const { target } = event;
   const pressable = 'button:focus-visible, a:focus-visible, summary:focus-visible';
   const busy = target instanceof HTMLElement && target.matches(pressable);
-  return pilot.driving || !(busy || takesKey(target, event.code));
+  return isDriven || !(busy || takesKey(target, event.code));
 }

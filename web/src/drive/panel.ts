@@ -4,12 +4,16 @@
 import type { App, Panel } from '../app';
 import { h, setText } from '../dom';
 import { fixed } from '../format';
+import { ageText } from '../freshness';
 import { robotOf, SOURCES, velocityOf, type Source } from '../readings';
 import { recallNumber, remember } from '../remember';
 import type { State } from '../state';
 import { Joystick } from './joystick';
+import { keycaps } from './keycaps';
 import type { Limits, Velocity } from './mixing';
 import type { Pilot } from './pilot';
+import { stopElement } from './stop';
+import { whoDrives } from './words';
 
 const WORDS: Record<Source, string> = { command: 'Command', odometry: 'Odometry', truth: 'Truth' };
 const LIMITS = {
@@ -26,6 +30,7 @@ export class DrivePanel implements Panel {
   private readonly topic = h('p', { class: 'fine' });
   private readonly pad = h('span', { class: 'fine' });
   private readonly sideways: HTMLElement;
+  private readonly rows = new Map<Source, { row: HTMLElement; age: HTMLElement }>();
   private readonly cells = new Map<Source, Record<keyof Velocity, HTMLElement>>();
 
   constructor(private readonly app: App) {
@@ -48,10 +53,13 @@ export class DrivePanel implements Panel {
       this.readout(),
       this.sideways,
       h('div', { class: 'drive-limits' }, this.limit('linear'), this.limit('angular')),
-      stopButton(app.pilot),
+      stopElement(app),
       h('div', { class: 'drive-notes' }, keysHint(), this.pad, this.topic),
     );
-    app.store.watch(['graph', 'robot', 'driver', 'link', 'hello'], () => this.showWho());
+    app.store.watch(
+      ['graph', 'robot', 'driver', 'commanders', 'stops', 'silence', 'simulation', 'link', 'hello'],
+      () => this.showWho(),
+    );
     app.store.watch(['graph', 'robot', 'controllers'], () => this.showTopic());
     app.store.watch(['graph', 'robot', 'controllers'], () => {
       app.pilot.goesSideways = app.store.goesSideways;
@@ -70,6 +78,22 @@ export class DrivePanel implements Panel {
         setText(cells.linear, fixed(velocity?.linear, 2));
         setText(cells.angular, fixed(velocity?.angular, 2));
         setText(cells.sideways, fixed(velocity?.sideways, 2));
+      }
+    }
+  }
+
+  /** Say how old the numbers are, once they are too old; called ten times a second. */
+  tick(now: number): void {
+    const { store } = this.app;
+    const robot = store.robot?.id ?? '';
+    const isPaused = store.simulation !== null && store.simulation.state !== 'playing';
+    for (const [source, { row, age: cell }] of this.rows) {
+      const age = isPaused ? null : store.freshness.staleness(robot, source, now);
+      const text = age === null ? '' : ageText(age);
+      if (cell.textContent !== text) {
+        setText(cell, text);
+        row.classList.toggle('stale', age !== null);
+        row.title = age === null ? '' : `No ${WORDS[source].toLowerCase()} for ${text}`;
       }
     }
   }
@@ -96,11 +120,9 @@ export class DrivePanel implements Panel {
   private showWho(): void {
     const { store } = this.app;
     const command = store.robot?.command ?? null;
-    const driver = store.driver;
-    const word =
-      driver === null ? 'Nobody drives' : driver.me ? 'You drive' : `${driver.name} drives`;
-    setText(this.who, word);
-    this.who.dataset.tone = driver === null ? 'calm' : driver.me ? 'good' : 'warning';
+    const { tone, text } = whoDrives(store);
+    setText(this.who, text);
+    this.who.dataset.tone = tone;
     this.element.classList.toggle('cannot', command === null || store.link.state !== 'open');
     this.app.pilot.setRobot(command === null ? null : (store.robot?.id ?? null));
   }
@@ -133,8 +155,11 @@ export class DrivePanel implements Panel {
         sideways: h('td', { class: 'of-sideways' }, '–'),
       };
       this.cells.set(source, cells);
-      const name = h('th', { scope: 'row' }, h('i', { class: `swatch ${source}` }), WORDS[source]);
-      return h('tr', {}, name, cells.linear, cells.sideways, cells.angular);
+      const age = h('small', { class: 'age' });
+      const name = h('th', { scope: 'row' }, h('i', { class: `swatch ${source}` }), WORDS[source], age);
+      const row = h('tr', {}, name, cells.linear, cells.sideways, cells.angular);
+      this.rows.set(source, { row, age });
+      return row;
     });
     const left = h('th', { scope: 'col', class: 'of-sideways', title: 'm/s to the left' }, 'left');
     return h(
@@ -179,24 +204,6 @@ function unit(name: string): HTMLElement {
   return h('th', { scope: 'col' }, name);
 }
 
-function stopButton(pilot: Pilot): HTMLElement {
-  const element = h(
-    'button',
-    {
-      type: 'button',
-      class: 'stop',
-      'aria-label': 'Stop all robots',
-      'aria-keyshortcuts': 'Escape',
-    },
-    h('strong', {}, 'STOP'),
-    h('span', { class: 'keys' }, h('kbd', {}, 'Space'), h('kbd', {}, 'Esc')),
-  );
-  // On the press, not on the release of a click: it is for when one is in a hurry.
-  element.addEventListener('pointerdown', () => pilot.stop());
-  element.addEventListener('click', () => pilot.stop());
-  return element;
-}
-
 /** A button that takes the robot sideways while it is held. */
 function sidewaysButton(pilot: Pilot, text: string, key: string, left: number): HTMLElement {
   const hand = `sideways ${text}`;
@@ -204,7 +211,7 @@ function sidewaysButton(pilot: Pilot, text: string, key: string, left: number): 
     'button',
     { type: 'button', class: 'button', 'aria-label': `${text}, sideways while held`, 'aria-keyshortcuts': key },
     h('span', {}, text),
-    h('kbd', {}, key),
+    ...keycaps(`Key${key}`),
   );
   element.addEventListener('pointerdown', (event) => {
     element.setPointerCapture(event.pointerId);
@@ -218,6 +225,6 @@ function sidewaysButton(pilot: Pilot, text: string, key: string, left: number): 
 }
 
 function keysHint(): HTMLElement {
-  const keys = ['W', 'A', 'S', 'D'].map((key) => h('kbd', {}, key));
+  const keys = keycaps('KeyW', 'KeyA', 'KeyS', 'KeyD');
   return h('p', { class: 'fine keys-hint' }, 'Hold ', ...keys, ' or the arrow keys');
 }

@@ -4,18 +4,18 @@
  * The one who decides what is sent to a driven robot, and when.
  *
  * Hands (keys, joystick, gamepad) say what they want; while one of them does, a `drive` goes out
- * at once on each change, at most 60 times a second, and again every 33 ms, so that the node knows
- * that somebody is there. When the last hand lets go, a `stop` goes out at once.
+ * at once on each change, at most 60 times a second. The socket repeats the last one, so that the node
+ * knows that somebody is there. When the last hand lets go, a `stop` goes out at once.
  */
-import type { Drive, Stop } from '../protocol';
+import type { Drive, PressStop, Stop } from '../protocol';
 import { mix, toVelocity, type Demand, type Limits, type Velocity } from './mixing';
 
 const LEAST_GAP = 1000 / 60; // ms between two `drive`
-const REPEAT = 1000 / 30; // ms
 
 /** What a pilot needs of the world outside. */
 export interface PilotPort {
-  send(message: Drive | Stop): boolean; // false: the connection is not open
+  send(message: Drive | Stop | PressStop): boolean; // false: the connection is not open
+  rest(): void; // the last `drive` is repeated no more
   now(): number; // ms
   after(milliseconds: number, call: () => void): () => void; // returns what takes it back
 }
@@ -28,6 +28,8 @@ export class Pilot {
   onChange: (velocity: Velocity | null) => void = () => {};
   /** Called when a hand wants to drive what another page drives. */
   onRefused: () => void = () => {};
+  /** Called when STOP could not be sent. */
+  onUnsent: () => void = () => {};
 
   private robot: string | null = null;
   private readonly hands = new Map<string, Demand>();
@@ -86,15 +88,20 @@ export class Pilot {
     const driving = this.driving;
     this.letGo();
     if (driving) {
-      this.sendStop(this.robot);
+      this.sendStop();
       this.onChange(null);
     }
   }
 
-  /** The big stop: every robot, whoever drives. A hand that holds must let go to drive again. */
+  /**
+   * STOP: every robot is held at rest, whoever drives, until somebody releases it. A hand that holds
+   * must let go to drive again.
+   */
   stop(): void {
     this.letGo();
-    this.sendStop(null);
+    if (!this.port.send({ type: 'press_stop', robot: null })) {
+      this.onUnsent();
+    }
     this.onChange(null);
   }
 
@@ -103,6 +110,7 @@ export class Pilot {
     const driving = this.driving;
     this.letGo();
     if (driving) {
+      this.port.rest();
       this.onChange(null);
     }
   }
@@ -112,16 +120,6 @@ export class Pilot {
     this.taken = taken;
     if (taken) {
       this.halt();
-    }
-  }
-
-  /**
-   * Say that somebody drives, if it is time to. Timers come late where a page draws slowly; call
-   * this wherever the page gets to do something.
-   */
-  keepUp(): void {
-    if (this.driving && this.port.now() - this.sentAt >= REPEAT) {
-      this.sendDrive();
     }
   }
 
@@ -140,7 +138,7 @@ export class Pilot {
     }
     if (this.hands.size === 0) {
       this.letGo();
-      this.sendStop(this.robot);
+      this.sendStop();
       this.onChange(null);
       return;
     }
@@ -149,7 +147,7 @@ export class Pilot {
     if (wait <= 0) {
       this.sendDrive();
     } else {
-      this.schedule(wait);
+      this.cancel ??= this.port.after(wait, () => this.sendDrive());
     }
   }
 
@@ -158,24 +156,16 @@ export class Pilot {
     if (this.robot === null || velocity === null) {
       return;
     }
+    this.cancel?.();
+    this.cancel = null;
     this.sentAt = this.port.now();
-    if (this.port.send({ type: 'drive', robot: this.robot, ...velocity })) {
-      this.schedule(REPEAT);
-    } else {
+    if (!this.port.send({ type: 'drive', robot: this.robot, ...velocity })) {
       this.halt();
     }
   }
 
-  private sendStop(robot: string | null): void {
-    this.port.send({ type: 'stop', robot });
-  }
-
-  private schedule(milliseconds: number): void {
-    this.cancel?.();
-    this.cancel = this.port.after(milliseconds, () => {
-      this.cancel = null;
-      this.sendDrive();
-    });
+  private sendStop(): void {
+    this.port.send({ type: 'stop', robot: this.robot });
   }
 }
 

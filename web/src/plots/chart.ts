@@ -1,192 +1,214 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** One plot over time. */
-import uPlot from 'uplot';
-import { h } from '../dom';
-import { clock, fixed, UNKNOWN } from '../format';
-import { colour } from '../theme';
-import type { Table } from './history';
+/** One chart: its head, its legend, its lines, and the cursor on them. */
+import { button, h, setText } from '../dom';
+import { clock } from '../format';
+import { Drawing, type Reader } from './drawing';
+import { droppedField, isField, type Field } from './field';
+import { listenToGestures, type TimeHand } from './gestures';
+import { Legend, number } from './legend';
+import type { Bounds, ChartSpec } from './layout';
+import type { ChartLines } from './lines';
 
-export interface Line {
-  name: string;
-  colour: string; // the name of a colour of the style sheet
-  column: number; // of the table, from 0 behind the time
-  wanted?: number; // the column of what it ought to be, drawn dashed
+/** What a chart asks for; the panel does it. */
+export interface ChartPort extends TimeHand {
+  add(field: Field): void;
+  ask(): void; // a field is to be searched for
+  removeField(field: Field): void;
+  remove(): void;
+  setBounds(bounds: Bounds): void;
 }
 
-const LEAST_HEIGHT = 60; // px
-const LEAST_SPAN = 0.2; // of the values, so that noise at rest does not fill the plot
-const NONE = { show: false };
-const KEY_STEP = 0.02; // share of the width that an arrow key moves the cursor
+/** What is shown: the time, and where in it the cursor is, as a share. */
+export interface Shown {
+  range: readonly [number, number];
+  latest: number; // s
+  cursor: number | null;
+  isHeld: boolean;
+  faultOf: (field: Field) => string | null;
+}
+
+const OLD = 2; // s without a value of a field
 
 export class Chart {
   readonly element: HTMLElement;
   private readonly place: HTMLElement;
-  private readonly legend: HTMLElement;
-  private plot: uPlot | null = null;
-  private table: uPlot.AlignedData = [[]];
-  private range: [number, number] = [0, 1];
+  private readonly legend: Legend;
+  private readonly drawing: Drawing;
+  private readonly title = h('span', { class: 'chart-title' });
+  private readonly unit = h('span', { class: 'fine' });
+  private readonly time = h('span', { class: 'chart-time' });
+  private readonly line = h('div', { class: 'chart-cursor', hidden: true }, this.time);
+  private readonly part = h('div', { class: 'chart-part', hidden: true });
+  private over: HTMLElement | null = null;
 
   constructor(
-    readonly title: string,
-    readonly unit: string,
-    private lines: readonly Line[],
-    private readonly always: readonly [number, number] | null = null, // values always in view
+    private spec: ChartSpec,
+    private about: ChartLines,
+    private readonly port: ChartPort,
   ) {
-    this.legend = h('div', { class: 'chart-legend' });
-    this.place = h('div', {
-      class: 'chart-plot',
-      tabindex: 0,
-      role: 'group',
-      'aria-label': `${title} over time; the left and right arrow keys move the cursor`,
+    this.place = h('div', { class: 'chart-plot', tabindex: 0, role: 'group' });
+    this.legend = new Legend('Lines', (field) => port.removeField(field));
+    this.drawing = new Drawing(this.place, about, spec.bounds, (over) => {
+      this.over = over;
+      over.append(this.line, this.part);
     });
-    const heading = h('span', { class: 'chart-title' }, title, h('span', { class: 'fine' }, unit));
     this.element = h(
       'figure',
       { class: 'chart' },
-      h('figcaption', {}, heading, this.legend),
+      h('figcaption', {}, this.head(), this.legend.element),
       this.place,
     );
-    this.place.addEventListener('keydown', (event) => this.moveCursor(event));
-    new ResizeObserver(() => this.fit()).observe(this.place);
+    listenToGestures(this.place, () => (this.over ?? this.place).getBoundingClientRect(), {
+      ...port,
+      choosing: (part) => this.choose(part),
+    });
+    this.takeDrops();
+    this.setLines(spec, about);
   }
 
-  get series(): readonly Line[] {
-    return this.lines;
+  get name(): string {
+    return this.about.title;
   }
 
-  /** Draw other lines from now on. */
-  setLines(lines: readonly Line[]): void {
-    if (JSON.stringify(lines) !== JSON.stringify(this.lines)) {
-      this.lines = lines;
-      this.rebuild();
-    }
+  get lines(): ChartLines {
+    return this.about;
   }
 
-  /** Show what is in a table from the first to the second time (s). */
-  show(table: Table, range: [number, number]): void {
-    this.table = [table[0], ...this.columns().map((column) => table[column + 1] ?? [])];
-    this.range = range;
-    if (this.plot === null) {
-      this.rebuild();
-    } else {
-      this.plot.setData(this.table);
-    }
-    if (this.plot !== null && (this.plot.cursor.left ?? -1) < 0 && table[0].length > 0) {
-      this.plot.setLegend({ idx: table[0].length - 1 });
-    }
+  setLines(spec: ChartSpec, about: ChartLines): void {
+    [this.spec, this.about] = [spec, about];
+    setText(this.title, about.title);
+    this.title.title = about.title;
+    setText(this.unit, about.unit);
+    this.place.setAttribute(
+      'aria-label',
+      `${about.title} over time. Left and right move the cursor, with Shift the time; ` +
+        'plus and minus zoom, Home follows.',
+    );
+    this.legend.setLines(about.lines);
+    this.drawing.setLines(about, spec.bounds);
   }
 
-  /** Make the plot anew: its colours are those of another theme. */
+  show(read: Reader, shown: Shown, now: number, isUrgent: boolean): void {
+    this.drawing.show(read, shown.range, now, isUrgent);
+    this.showCursor(read, shown);
+  }
+
+  /** Its colours are those of another theme. */
   rebuild(): void {
-    this.plot?.destroy();
-    this.plot = null;
-    const { clientWidth, clientHeight } = this.place;
-    if (clientWidth > 0 && clientHeight >= LEAST_HEIGHT) {
-      const size = { width: clientWidth, height: clientHeight };
-      this.plot = new uPlot({ ...this.options(), ...size }, this.table, this.place);
-      this.fit(); // its legend takes place, too
+    this.drawing.rebuild();
+  }
+
+  picture<T>(width: number, height: number, take: (canvas: HTMLCanvasElement) => T): Promise<T> {
+    return this.drawing.picture(width, height, take);
+  }
+
+  /** What its lines are at a time (s), in words. */
+  words(read: Reader, time: number): string {
+    const { pixel } = this.drawing;
+    return this.about.lines
+      .map(({ name, stroke }) => `${name} ${number(read(stroke.source)?.at(time) ?? Number.NaN, pixel)}`)
+      .join(', ');
+  }
+
+  private showCursor(read: Reader, { range, latest, cursor, isHeld, faultOf }: Shown): void {
+    const [from, to] = range;
+    const time = cursor === null ? Math.min(to, latest) : from + cursor * (to - from);
+    const isNow = !isHeld && cursor === null;
+    const isKnown = time <= latest; // behind that, nothing has come yet
+    const values = this.about.lines.map(({ stroke, wanted, field }) => {
+      const series = read(stroke.source);
+      return {
+        value: (isKnown ? series?.at(time) : null) ?? Number.NaN,
+        wanted: (wanted === null || !isKnown ? null : read(wanted.source)?.at(time)) ?? Number.NaN,
+        isOld: isNow && field !== null && series !== null && latest - series.latest > OLD,
+        fault: field === null ? null : faultOf(field),
+      };
+    });
+    this.legend.show(values, this.drawing.pixel);
+    this.line.hidden = cursor === null;
+    if (cursor !== null) {
+      const width = this.over?.clientWidth ?? 0;
+      this.line.style.transform = `translateX(${cursor * width}px)`;
+      this.line.classList.toggle('late', cursor > 0.5);
+      setText(this.time, timeText(time));
     }
   }
 
-  /** Draw the same in another size (CSS px), apart from the page, and give what was drawn. */
-  picture<T>(width: number, height: number, take: (canvas: HTMLCanvasElement) => T): Promise<T> {
-    return new Promise((resolve) => {
-      const drawn = (plot: uPlot): void => {
-        resolve(take(plot.ctx.canvas));
-        queueMicrotask(() => plot.destroy());
-      };
-      const apart = { legend: { show: false }, cursor: { show: false }, hooks: { draw: [drawn] } };
-      new uPlot({ ...this.options(), width, height, ...apart }, this.table, h('div'));
+  private choose(part: readonly [number, number] | null): void {
+    this.part.hidden = part === null;
+    if (part !== null) {
+      const width = this.over?.clientWidth ?? 0;
+      this.part.style.left = `${Math.min(...part) * width}px`;
+      this.part.style.width = `${Math.abs(part[1] - part[0]) * width}px`;
+    }
+  }
+
+  private head(): HTMLElement {
+    const form = this.boundsForm();
+    const bounds = button('', () => (form.hidden = !form.hidden), {
+      icon: 'range',
+      kind: 'quiet',
+      title: 'Least and greatest value',
+    });
+    return h(
+      'div',
+      { class: 'chart-head' },
+      this.title,
+      this.unit,
+      h(
+        'span',
+        { class: 'chart-buttons' },
+        button('', () => this.port.ask(), { icon: 'plus', kind: 'quiet', title: 'Add a field to it' }),
+        bounds,
+        button('', () => this.port.remove(), { icon: 'close', kind: 'quiet', title: 'Remove the chart' }),
+      ),
+      form,
+    );
+  }
+
+  private boundsForm(): HTMLFormElement {
+    const input = (name: string, value: number | null): HTMLInputElement =>
+      h('input', { type: 'number', step: 'any', placeholder: 'auto', 'aria-label': name, value });
+    const least = input('Least value', this.spec.bounds[0]);
+    const most = input('Greatest value', this.spec.bounds[1]);
+    const form = h('form', { class: 'bounds', hidden: true }, least, '–', most);
+    const valueOf = ({ value }: HTMLInputElement): number | null =>
+      value.trim() === '' || !Number.isFinite(Number(value)) ? null : Number(value);
+    form.addEventListener('change', () => {
+      const bounds: Bounds = [valueOf(least), valueOf(most)];
+      const isEmpty = bounds[0] !== null && bounds[1] !== null && bounds[0] >= bounds[1];
+      most.setCustomValidity(isEmpty ? 'It has to be greater than the least value.' : '');
+      if (form.reportValidity()) {
+        this.port.setBounds(bounds);
+      }
+    });
+    form.addEventListener('submit', (event) => event.preventDefault());
+    return form;
+  }
+
+  private takeDrops(): void {
+    const over = (is: boolean): void => void this.element.classList.toggle('dropping', is);
+    this.element.addEventListener('dragover', (event) => {
+      if (isField(event.dataTransfer)) {
+        event.preventDefault();
+        over(true);
+      }
+    });
+    this.element.addEventListener('dragleave', () => over(false));
+    this.element.addEventListener('drop', (event) => {
+      over(false);
+      const field = droppedField(event.dataTransfer);
+      if (field !== null) {
+        event.preventDefault();
+        event.stopPropagation();
+        this.port.add(field);
+      }
     });
   }
-
-  private fit(): void {
-    const { clientWidth, clientHeight } = this.place;
-    if (this.plot === null) {
-      this.rebuild();
-    } else if (clientHeight > 0 && !this.fits()) {
-      this.plot.setSize({ width: clientWidth, height: clientHeight });
-    }
-  }
-
-  private fits(): boolean {
-    const { clientWidth, clientHeight } = this.place;
-    return clientWidth === this.plot?.width && clientHeight === this.plot.height;
-  }
-
-  private moveCursor(event: KeyboardEvent): void {
-    const step = { ArrowLeft: -KEY_STEP, ArrowRight: KEY_STEP }[event.key];
-    if (this.plot !== null && step !== undefined) {
-      const width = this.plot.over.clientWidth;
-      const from = this.plot.cursor.left ?? -1;
-      const left = (from < 0 ? width : from) + step * width;
-      this.plot.setCursor({ left: Math.min(width - 1, Math.max(0, left)), top: 1 });
-    }
-  }
-
-  private options(): Omit<uPlot.Options, 'width' | 'height'> {
-    const grid = { stroke: colour('grid'), width: 1 };
-    const axis = { stroke: colour('muted'), grid, ticks: { show: false }, font: '11px system-ui' };
-    return {
-      scales: {
-        x: { time: false, range: () => this.range },
-        y: { range: (_plot, least, most) => this.spanOf(least, most) },
-      },
-      axes: [
-        { ...axis, size: 22, gap: 4, values: (_plot, times) => times.map(label) },
-        { ...axis, size: 38, gap: 4 },
-      ],
-      series: [
-        { label: 't', value: (_plot, time) => (time === null ? UNKNOWN : clock(time)) },
-        ...this.lines.map((line) => this.solid(line)),
-        ...this.withWanted().map(dashed),
-      ],
-      cursor: { y: false, drag: { x: false, y: false }, sync: { key: 'amr' } },
-      legend: {
-        mount: (_plot, table) => this.legend.replaceChildren(table),
-        markers: { width: 2 },
-      },
-    };
-  }
-
-  private withWanted(): Line[] {
-    return this.lines.filter(({ wanted }) => wanted !== undefined);
-  }
-
-  /** What is drawn, in the order of the series: the lines, then what they ought to be. */
-  private columns(): number[] {
-    return [...this.lines.map(({ column }) => column), ...this.withWanted().map(wantedOf)];
-  }
-
-  private solid(line: Line): uPlot.Series {
-    const wanted = this.withWanted().indexOf(line);
-    const value = (plot: uPlot, is: number | null, _series: number, at: number | null): string => {
-      const ought = plot.data[1 + this.lines.length + wanted]?.[at ?? -1];
-      return wanted < 0 ? fixed(is, 2) : `${fixed(is, 2)} / ${fixed(ought, 2)}`;
-    };
-    return { label: line.name, stroke: colour(line.colour), width: 1.5, points: NONE, value };
-  }
-
-  /** Somewhat more than the values take, and never less than LEAST_SPAN. */
-  private spanOf(least: number | null, most: number | null): [number, number] {
-    const low = Math.min(least ?? 0, this.always?.[0] ?? Infinity);
-    const high = Math.max(most ?? 0, this.always?.[1] ?? -Infinity);
-    const more = Math.max((high - low) * 0.08, (LEAST_SPAN - (high - low)) / 2);
-    return [low - more, high + more];
-  }
 }
 
-/** Beside its line there is no room for it in the legend, and it needs none. */
-function dashed(line: Line): uPlot.Series {
-  const stroke = colour(line.colour);
-  return { class: 'wanted', stroke, width: 1, dash: [4, 4], points: NONE };
-}
-
-function wantedOf({ wanted, column }: Line): number {
-  return wanted ?? column;
-}
-
-function label(time: number): string {
-  return time > 1e8 ? clock(time) : `${Number(time.toFixed(2))}`;
+/** A time, s, at a cursor: "12.34 s", or of a clock, "14:03:20.15". */
+export function timeText(time: number): string {
+  return time > 1e8 ? `${clock(time)}${(time % 1).toFixed(2).slice(1)}` : `${time.toFixed(2)} s`;
 }

@@ -1,91 +1,69 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** What was: the samples of the last minutes, in memory that does not grow. */
-
-/** Columns of equal length, the time (s) first; null stands for what is not known. */
-export type Table = [number[], ...(number | null)[][]];
+import { Ring } from './ring';
+import type { Series } from './series';
 
 /**
- * A ring of samples, each a time and a value a column.
+ * Samples, each a time and a value a column.
  *
- * A sample closer than `span / capacity` to the one before is left out, so that the ring always
- * reaches back `span` seconds, however fast samples come.
+ * A sample closer than `span / capacity` to the one before is left out, so that those that are kept
+ * always reach back `span` seconds, however fast samples come.
  */
 export class History {
-  private readonly times: Float64Array;
-  private readonly values: Float32Array;
-  private count = 0;
-  private next = 0;
-
   constructor(
     readonly columns: number,
-    readonly span: number,
-    readonly capacity: number,
-  ) {
-    this.times = new Float64Array(capacity);
-    this.values = new Float32Array(capacity * columns);
-  }
+    private readonly span: number,
+    private readonly capacity: number,
+    private readonly ring = new Ring(capacity, Infinity, columns, Float32Array),
+  ) {}
 
   get length(): number {
-    return this.count;
+    return this.ring.length;
   }
 
   /** Time of the latest sample, s; not a number when there is none. */
   get latest(): number {
-    return this.count === 0 ? Number.NaN : this.times[this.index(this.count - 1)];
+    return this.ring.latest;
   }
 
   /** Keep a sample. Time that goes back forgets all that was. */
-  push(time: number, values: ArrayLike<number>): void {
+  push(time: number, values: readonly number[]): void {
     if (time < this.latest) {
       this.clear();
     }
     // A hundredth of slack: samples at just that distance must not beat against it.
-    if (this.count > 0 && time - this.latest < (0.99 * this.span) / this.capacity) {
-      return;
+    if (!(time - this.latest < (0.99 * this.span) / this.capacity)) {
+      this.ring.push(time, ...values);
     }
-    this.times[this.next] = time;
-    for (let column = 0; column < this.columns; column += 1) {
-      this.values[this.next * this.columns + column] = values[column];
-    }
-    this.next = (this.next + 1) % this.capacity;
-    this.count = Math.min(this.count + 1, this.capacity);
   }
 
   clear(): void {
-    this.count = 0;
-    this.next = 0;
+    this.ring.clear();
   }
 
-  /** The samples from `from` (s) on. */
-  since(from: number): Table {
-    let low = 0;
-    let high = this.count;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.times[this.index(middle)] < from) {
-        low = middle + 1;
-      } else {
-        high = middle;
-      }
-    }
-    const length = this.count - low;
-    const table: Table = [new Array<number>(length)];
-    for (let column = 0; column < this.columns; column += 1) {
-      table.push(new Array<number | null>(length));
-    }
-    for (let row = 0; row < length; row += 1) {
-      const at = this.index(low + row);
-      table[0][row] = this.times[at];
-      for (let column = 0; column < this.columns; column += 1) {
-        const value = this.values[at * this.columns + column];
-        table[column + 1][row] = Number.isNaN(value) ? null : value;
-      }
-    }
-    return table;
+  /** One of the columns, as it is and as it will be. */
+  column(column: number): Series {
+    const { ring } = this;
+    return {
+      get first() {
+        return ring.first;
+      },
+      get latest() {
+        return ring.latest;
+      },
+      at: (time) => ring.at(time, column),
+      visit: (from, to, _step, call) => ring.visit(from, to, call, column),
+    };
   }
 
-  private index(age: number): number {
-    return (this.next - this.count + age + this.capacity) % this.capacity;
+  /** The latest value of a column at a time (s) or before; NaN when there is none. */
+  at(time: number, column: number): number {
+    return this.ring.at(time, column);
+  }
+
+  /** A copy that does not change any more. */
+  copy(): History {
+    return new History(this.columns, this.span, this.capacity, this.ring.copy());
   }
 }

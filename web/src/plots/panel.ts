@@ -1,165 +1,330 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** The plots: velocities, wheels, real-time factor; a window of time, pause, what one saves. */
+/** The plots: charts of the robot and of any fields, over one time, with one cursor. */
+import { effect, signal, untracked } from '@preact/signals';
+import { render } from 'preact';
 import type { App, Panel } from '../app';
-import { button, h, toggle } from '../dom';
-import { SOURCES } from '../readings';
-import { recallNumber, remember } from '../remember';
-import { saveFile } from '../save';
+import { h, setText } from '../dom';
+import type { Part } from '../protocol';
+import { recall, recallNumber, remember } from '../remember';
 import type { State } from '../state';
-import { Chart, type Line } from './chart';
-import { toCsv } from './csv';
-import type { Table } from './history';
-import { toPng } from './png';
-import {
-  FACTOR_COLUMN, SPAN, velocityColumn, wheelColumn, type Record, type Recorder,
-} from './recorder';
+import { Chart, timeText, type ChartPort } from './chart';
+import type { Reader } from './drawing';
+import { droppedField, isField, parseField, type Field } from './field';
+import { Following, type FieldFeed } from './following';
+import { PlotLayout } from './layout';
+import { chartLines, type Line, type Source } from './lines';
+import { Offers } from './offers';
+import type { Recorder } from './recorder';
+import { forgetLink, saveCsv, savePng, shareLink } from './saving';
+import { SPAN, type Series } from './series';
+import { TimeView, type Extent } from './time_view';
+import { toolsOf, WINDOWS } from './tools';
 
-const WINDOWS = [10, 30, 60, 120, SPAN]; // s
-const REDRAW = 100; // ms between two drawings of a short window
-const LONG_REDRAW = 500; // ms, of the longest: five minutes are 18 000 samples a line
-const WHEEL_COLOURS = 6;
+const ANOTHER_CLOCK = 1e5; // s from the time of the states
+const AT_LAST = 600; // ms without a state, after which all of the last one is drawn
+const SAID_AFTER = 400; // ms after the last key: the values at the cursor are said once it rests
 
 export class PlotsPanel implements Panel {
   readonly id = 'plots';
   readonly title = 'Plots';
   readonly element: HTMLElement;
-  private readonly charts: Chart[];
-  private window = recallNumber('window', WINDOWS[0], SPAN, 30);
-  private paused: { table: Table; end: number } | null = null;
-  private drawnAt = 0;
+  readonly layout = new PlotLayout(
+    recall('plots'),
+    (text) => {
+      remember('plots', text);
+      forgetLink();
+    },
+    window.location.hash,
+  );
+  private readonly place = h('div', { class: 'charts' });
+  private readonly live = h('div', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
+  private readonly view = new TimeView(
+    recallNumber('window', WINDOWS[0] ?? 10, SPAN, 30),
+    SPAN,
+  );
+  private readonly following: Following;
+  private readonly charts = new Map<number, Chart>();
+  private readonly heldAt = signal<string | null>(null); // in words
+  private readonly target = signal<{ id: number; name: string } | null>(null);
+  private wheels = ''; // of the robot that is shown
+  private held: Recorder | null = null;
+  private cursor: number | null = null; // a share of what is seen
+  private sayLater: ReturnType<typeof setTimeout> | undefined;
+  private isSearching = false;
+  private last: ReturnType<typeof setTimeout> | undefined;
+  private moving = 0; // the frame that will draw
 
   constructor(
     private readonly app: App,
     private readonly recorder: Recorder,
+    feed: FieldFeed,
   ) {
-    this.charts = [
-      new Chart('Linear velocity', 'm/s', velocities('linear')),
-      new Chart('Angular velocity', 'rad/s', velocities('angular')),
-      new Chart('Wheel speeds', 'rad/s, commanded dashed', []),
-      new Chart('Real-time factor', '×', [
-        { name: 'real', colour: 'accent', column: FACTOR_COLUMN },
-      ], [0, 1]),
-    ];
-    this.charts[2].element.classList.add('wide'); // its legend has two numbers a wheel
-    this.charts[3].element.classList.add('narrow');
+    this.following = new Following(feed, recorder);
+    const own = h('div', { class: 'plot-tools-own' });
+    const tools = h('div', { class: 'plot-tools', role: 'toolbar', 'aria-label': 'Plots' }, own);
+    const beside = h('div', { class: 'chart-new' }, 'Drop here for a new chart');
     this.element = h(
       'section',
       { class: 'plots', 'aria-label': 'Plots' },
-      this.tools(),
-      h('div', { class: 'charts' }, ...this.charts.map((chart) => chart.element)),
+      tools,
+      this.place,
+      beside,
+      this.live,
     );
-    app.store.watch(['graph', 'robot', 'reset'], () => this.draw());
+    const { store } = app;
+    const save = {
+      csv: () => saveCsv(this.lines, this.read, this.view.range(this.extent)),
+      png: () => {
+        this.draw(true); // what has come since the last drawing, too
+        void savePng(this.shown, store);
+      },
+      link: () => shareLink(this.layout.link, store),
+    };
+    const { heldAt, target, layout } = this;
+    const Tools = toolsOf({
+      window: this.view.window,
+      heldAt,
+      target,
+      offers: new Offers(app),
+      search: (on) => (this.isSearching = on),
+      setWindow: (seconds) => this.setWindow(seconds),
+      pause: (on) => this.pause(on),
+      add: (text) => this.addText(text),
+      reset: () => layout.reset(),
+      ...save,
+    });
+    render(Tools, own);
+    this.takeDrops(beside);
+    effect(() => {
+      void layout.charts;
+      untracked(() => this.arrange());
+    });
+    app.store.watch(['graph', 'robot'], () => this.arrange());
+    app.store.watch(['reset'], () => this.pause(false));
+    app.store.watch(['link'], () => {
+      if (app.store.link.state !== 'open') {
+        recorder.interrupt();
+      }
+    });
+  }
+
+  /** Topics, while somebody searches for one. */
+  get watches(): readonly Part[] {
+    return this.isSearching ? ['topics'] : [];
   }
 
   pulse(_state: State): void {
-    const gap = REDRAW + (LONG_REDRAW - REDRAW) * (this.window / SPAN);
-    if (this.paused === null && performance.now() - this.drawnAt >= 0.9 * gap) {
-      this.draw();
-    }
+    this.draw(false);
   }
 
   /** The colours changed. */
   repaint(): void {
-    for (const chart of this.charts) {
+    for (const chart of this.charts.values()) {
       chart.rebuild();
     }
+    this.draw(true);
   }
 
-  private draw(): void {
-    this.drawnAt = performance.now();
-    const record = this.recorder.of(this.app.store.robot?.id);
-    const { table, end } = this.paused ?? this.current(record);
-    this.charts[2].setLines(wheelLines(record?.wheels ?? []));
-    this.charts[3].element.hidden = this.app.store.simulator === null;
-    for (const chart of this.charts) {
-      chart.show(table, [end - this.window, end]);
+  /** Whether a field is plotted; followed, as it is a signal. */
+  isPlotted(field: Field): boolean {
+    return this.layout.isPlotted(field);
+  }
+
+  /** Plot a field, or no more: for those who show fields. */
+  toggle(field: Field): void {
+    this.complain(this.layout.toggle(field));
+  }
+
+  /** One chart for each of the layout, in its order. */
+  private arrange(): void {
+    const { charts } = this.layout;
+    const wheels = this.recorder.of(this.robot)?.wheels ?? [];
+    this.wheels = wheels.join();
+    for (const [id, chart] of [...this.charts]) {
+      if (!charts.some((spec) => spec.id === id)) {
+        chart.element.remove();
+        this.charts.delete(id);
+      }
+    }
+    for (const spec of charts) {
+      const about = chartLines(spec, wheels);
+      const chart = this.charts.get(spec.id) ?? new Chart(spec, about, this.portOf(spec.id));
+      this.charts.set(spec.id, chart);
+      chart.setLines(spec, about);
+      chart.element.hidden = spec.kind === 'factor' && this.app.store.simulator === null;
+      if (!chart.element.isConnected) {
+        this.place.append(chart.element);
+      }
+    }
+    const fields = charts.flatMap((spec) => spec.fields);
+    this.following.follow(fields);
+    document.body.classList.toggle('plotted', fields.length > 0);
+    this.draw(true);
+  }
+
+  private get robot(): string | undefined {
+    return this.app.store.robot?.id;
+  }
+
+  private get shown(): Chart[] {
+    return [...this.charts.values()].filter(({ element }) => !element.hidden);
+  }
+
+  private get lines(): Line[] {
+    return this.shown.flatMap(({ lines }) => lines.lines);
+  }
+
+  /** A chart's values: those that are held, or the latest. */
+  private readonly read: Reader = (source: Source): Series | null =>
+    (this.held ?? this.recorder).series(this.robot, source);
+
+  /** From when to when there are values of what is shown. */
+  private get extent(): Extent {
+    const series = this.lines
+      .map(({ stroke }) => this.read(stroke.source))
+      .filter((one) => one !== null && this.isOfNow(one)) as Series[];
+    return series.length === 0
+      ? { first: Number.NaN, latest: Number.NaN }
+      : {
+          first: Math.min(...series.map(({ first }) => first)),
+          latest: Math.max(...series.map(({ latest }) => latest)),
+        };
+  }
+
+  /** Whether its times are those of the states: some publishers stamp by another clock. */
+  private isOfNow({ latest }: Series): boolean {
+    const now = (this.held ?? this.recorder).of(this.robot)?.history.latest ?? latest;
+    return Math.abs(latest - (Number.isNaN(now) ? latest : now)) < ANOTHER_CLOCK;
+  }
+
+  private draw(isUrgent: boolean): void {
+    if (this.wheels !== (this.recorder.of(this.robot)?.wheels ?? []).join()) {
+      this.arrange(); // which draws: the wheels are known with the first state of a robot
+      return;
+    }
+    const { extent, cursor } = this;
+    const isHeld = this.view.isHeld;
+    const range = this.view.range(extent);
+    const now = performance.now();
+    for (const chart of this.shown) {
+      const faultOf = (field: Field): string | null => this.following.faultOf(field);
+      const shown = { range, latest: extent.latest, cursor, isHeld, faultOf };
+      chart.show(this.read, shown, now, isUrgent);
+    }
+    if (!isUrgent) {
+      clearTimeout(this.last); // what is not due now is drawn even if nothing comes after it
+      this.last = setTimeout(() => this.draw(true), AT_LAST);
     }
   }
 
-  private current(record: Record | null): { table: Table; end: number } {
-    if (record === null) {
-      return { table: [[]], end: this.window };
+  /** Draw at the next frame, once, whatever happens until then. */
+  private drawSoon(isUrgent = true): void {
+    if (this.moving === 0) {
+      this.moving = requestAnimationFrame(() => {
+        this.moving = 0;
+        this.draw(isUrgent);
+      });
     }
-    const end = record.history.latest;
-    return { table: record.history.since(end - this.window), end: Number.isNaN(end) ? 0 : end };
   }
 
-  private tools(): HTMLElement {
-    const choice = h(
-      'select',
-      { 'aria-label': 'Window of time' },
-      ...WINDOWS.map((seconds) =>
-        h('option', { value: seconds }, seconds < 60 ? `${seconds} s` : `${seconds / 60} min`),
-      ),
-    );
-    choice.value = String(this.window);
-    choice.addEventListener('change', () => {
-      this.window = Number(choice.value);
-      remember('window', choice.value);
-      this.draw();
-    });
-    return h(
-      'div',
-      { class: 'plot-tools', role: 'toolbar', 'aria-label': 'Plots' },
-      h('h2', {}, 'Plots'),
-      choice,
-      toggle('Pause', false, (on) => this.pause(on), 'Hold the plots; recording goes on'),
-      h('span', { class: 'grow' }),
-      button('CSV', () => this.saveCsv(), { kind: 'quiet', title: 'Save these samples as CSV' }),
-      button('PNG', () => void this.savePng(), { kind: 'quiet', title: 'Save an image' }),
-    );
+  private portOf(id: number): ChartPort {
+    return {
+      add: (field) => this.complain(this.layout.add(field, id)),
+      ask: () => (this.target.value = { id, name: this.charts.get(id)?.name ?? '' }),
+      removeField: (field) => this.layout.removeField(id, field),
+      remove: () => this.layout.removeChart(id),
+      setBounds: (bounds) => this.layout.setBounds(id, bounds),
+      cursor: (share) => {
+        this.cursor = share;
+        this.drawSoon(false);
+      },
+      step: (share) => this.step(id, share),
+      zoom: (share, ratio) => this.look(() => this.view.zoom(share, ratio, this.extent)),
+      pan: (share) => this.look(() => this.view.pan(share, this.extent)),
+      choosing: () => {},
+      choose: ([from, to]) => this.look(() => this.view.select(from, to, this.extent)),
+      follow: () => this.pause(false),
+    };
   }
 
-  /** Hold what is seen, and all that is kept, so that one can look at a longer window of it. */
+  /** A key moves the cursor; once it rests, the values there are said. */
+  private step(id: number, share: number): void {
+    this.cursor = Math.min(1, Math.max(0, (this.cursor ?? 1) + share));
+    this.drawSoon(false);
+    clearTimeout(this.sayLater);
+    this.sayLater = setTimeout(() => {
+      const [from, to] = this.view.range(this.extent);
+      const time = from + (this.cursor ?? 1) * (to - from);
+      const words = this.charts.get(id)?.words(this.read, time) ?? '';
+      setText(this.live, `${timeText(time)}: ${words}`);
+    }, SAID_AFTER);
+  }
+
+  /** Look at another time: it is held, with all that there is of it. */
+  private look(move: () => void): void {
+    this.held ??= this.recorder.hold(this.robot);
+    move();
+    this.sayHeld();
+    this.drawSoon();
+  }
+
+  private setWindow(seconds: number): void {
+    this.view.setWindow(seconds);
+    remember('window', String(seconds));
+    this.draw(true);
+  }
+
+  /** Hold what is seen, and all that is kept, or follow what comes; recording goes on. */
   private pause(on: boolean): void {
-    const record = this.recorder.of(this.app.store.robot?.id);
-    const end = record?.history.latest ?? 0;
-    this.paused =
-      on && record !== null ? { table: record.history.since(end - SPAN), end } : null;
-    this.draw();
-  }
-
-  private saveCsv(): void {
-    const record = this.recorder.of(this.app.store.robot?.id);
-    const { table, end } = this.paused ?? this.current(record);
-    const first = table[0].findIndex((time) => time >= end - this.window);
-    const shown = table.map((column) => column.slice(Math.max(0, first))) as Table;
-    const names = ['time_s', ...columnNames(record?.wheels ?? [])];
-    saveFile('velocities.csv', new Blob([toCsv(names, shown)], { type: 'text/csv' }));
-  }
-
-  private async savePng(): Promise<void> {
-    const image = await toPng(this.charts.filter((chart) => !chart.element.hidden));
-    if (image === null) {
-      this.app.store.note('warning', 'This browser could not draw the image.');
+    if (on) {
+      this.held ??= this.recorder.hold(this.robot);
+      this.view.hold(this.extent);
     } else {
-      saveFile('plots.png', image);
+      this.held = null;
+      this.view.follow();
+    }
+    this.sayHeld();
+    this.draw(true);
+  }
+
+  private sayHeld(): void {
+    const [from, to] = this.view.range(this.extent);
+    this.heldAt.value = this.view.isHeld ? `${timeText(from)} to ${timeText(to)}` : null;
+  }
+
+  private addText(text: string): boolean {
+    const field = parseField(text);
+    if (field === null) {
+      return false;
+    }
+    this.complain(this.layout.add(field, this.target.value?.id ?? null));
+    return true;
+  }
+
+  private complain(why: string | null): void {
+    if (why !== null) {
+      this.app.store.note('warning', why);
     }
   }
-}
 
-function velocities(which: 'linear' | 'angular'): Line[] {
-  return SOURCES.map((source, index) => ({
-    name: source,
-    colour: source,
-    column: velocityColumn(index, which),
-  }));
-}
-
-function wheelLines(wheels: readonly string[]): Line[] {
-  return wheels.map((name, index) => ({
-    name: name.replace(/^(joint_)?(wheel_)?/, '').replace(/(_wheel)?(_joint)?$/, ''),
-    colour: `wheel-${index % WHEEL_COLOURS}`,
-    column: wheelColumn(index, 'measured'),
-    wanted: wheelColumn(index, 'commanded'),
-  }));
-}
-
-function columnNames(wheels: readonly string[]): string[] {
-  return [
-    ...SOURCES.flatMap((source) => [`${source}_linear_m_s`, `${source}_angular_rad_s`]),
-    'real_time_factor',
-    ...wheels.flatMap((name) => [`${name}_rad_s`, `${name}_commanded_rad_s`]),
-  ];
+  private takeDrops(beside: HTMLElement): void {
+    const dragged = (is: boolean): void => void this.element.classList.toggle('dragged', is);
+    window.addEventListener('dragstart', (event) => dragged(isField(event.dataTransfer)));
+    window.addEventListener('dragend', () => dragged(false));
+    for (const place of [beside, this.place]) {
+      place.addEventListener('dragover', (event) => {
+        if (isField(event.dataTransfer)) {
+          event.preventDefault();
+        }
+      });
+      place.addEventListener('drop', (event) => {
+        const field = droppedField(event.dataTransfer);
+        if (field !== null) {
+          event.preventDefault();
+          this.complain(this.layout.add(field));
+        }
+      });
+    }
+  }
 }

@@ -3,6 +3,7 @@
 /** Plots as one image, with their titles and the names of their lines. */
 import { colour } from '../theme';
 import type { Chart } from './chart';
+import type { ChartLines } from './lines';
 
 const WIDTH = 800; // px, all
 const HEIGHT = 190;
@@ -23,7 +24,7 @@ export async function toPng(charts: readonly Chart[]): Promise<Blob | null> {
   context.fillRect(0, 0, image.width, image.height);
   for (const [index, chart] of charts.entries()) {
     const top = (MARGIN + index * (HEAD + HEIGHT)) * scale;
-    drawHead(context, chart, MARGIN * scale, top + 16 * scale, scale);
+    drawHead(context, chart.lines, MARGIN * scale, top + 16 * scale, scale);
     await chart.picture(WIDTH, HEIGHT, (canvas) => {
       context.drawImage(canvas, MARGIN * scale, top + HEAD * scale);
     });
@@ -33,7 +34,7 @@ export async function toPng(charts: readonly Chart[]): Promise<Blob | null> {
 
 function drawHead(
   context: CanvasRenderingContext2D,
-  { title, unit, series }: Chart,
+  { title, unit, lines }: ChartLines,
   left: number,
   base: number,
   scale: number,
@@ -44,8 +45,8 @@ function drawHead(
     context.fillText(text, left, base);
     left += context.measureText(text).width + 12 * scale;
   };
-  write(`${title}, ${unit}`, colour('text'), 600);
-  for (const line of series) {
+  write(unit === '' ? title : `${title}, ${unit}`, colour('text'), 600);
+  for (const line of lines) {
     write(line.name, colour(line.colour), 500);
   }
 }

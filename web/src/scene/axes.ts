@@ -12,6 +12,22 @@ export interface PlacedFrame {
   name: string;
   pose: Matrix4; // in the frame of the scene
   parent: Matrix4 | null;
+  length: number; // of its axes, m
+}
+
+const SHARE = { link: 0.45, least: 0.035, most: 0.28 }; // of a link's length, of the robot's size
+const SAME_PLACE = 0.01; // of the robot's size
+
+/**
+ * How long the axes of a robot's frames are, m: less than half of what lies between two of them, so
+ * that an arm's can be told from one another.
+ *
+ * `lengths`: of the links, from joint to joint; `size`: of the robot.
+ */
+export function axisLength(lengths: readonly number[], size: number): number {
+  const apart = lengths.filter((length) => length > SAME_PLACE * size).sort((one, two) => one - two);
+  const middle = apart[Math.floor(apart.length / 2)] ?? size;
+  return Math.min(Math.max(SHARE.link * middle, SHARE.least * size), SHARE.most * size);
 }
 
 export class Axes {
@@ -28,15 +44,15 @@ export class Axes {
   }
 
   setPalette(palette: Palette): void {
-    palette.axes.forEach((colour, axis) => this.colours[axis].set(colour));
+    palette.axes.forEach((colour, axis) => this.colours[axis]!.set(colour));
     this.treeColour.set(palette.tree);
   }
 
-  /** Draw frames; axes are `length` m long. */
-  draw(frames: readonly PlacedFrame[], length: number): void {
+  /** Draw frames. */
+  draw(frames: readonly PlacedFrame[]): void {
     this.axes.clear();
     this.tree.clear();
-    for (const { pose, parent } of frames) {
+    for (const { pose, parent, length } of frames) {
       this.from.setFromMatrixPosition(pose);
       this.colours.forEach((colour, axis) => {
         this.to.setFromMatrixColumn(pose, axis).multiplyScalar(length).add(this.from);
@@ -53,10 +69,11 @@ export class Axes {
 }
 
 /** The names of frames, to be written where they are. */
-export function labelsOf(frames: readonly PlacedFrame[], fixedFrame: string): Label[] {
+export function labelsOf(frames: readonly PlacedFrame[], strong: string): Label[] {
   return frames.map(({ name, pose }) => ({
+    key: name,
     text: name,
     at: new Vector3().setFromMatrixPosition(pose),
-    isStrong: name === fixedFrame,
+    isStrong: name === strong,
   }));
 }

@@ -1,7 +1,7 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** The camera: orbit by mouse, touch and keys, follow a robot, go back to where all is in view. */
-import { Box3, Matrix4, PerspectiveCamera, Sphere, Vector3 } from 'three';
+import { Box3, Frustum, Matrix4, PerspectiveCamera, Sphere, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
 const FIELD_OF_VIEW = 40; // degrees, of the smaller side of the picture
@@ -13,6 +13,7 @@ const FOLLOWING_MARGIN = 2.4;
 const SMALLEST = 0.35; // m, the radius of the least that is framed
 const POSITION_LAG = 0.1; // s, of the camera behind the robot it follows
 const HEADING_LAG = 0.45;
+const FURTHEST = 40; // m, to have a robot in view
 const STEP = Math.PI / 24; // rad a key press
 
 export class CameraRig {
@@ -80,6 +81,26 @@ export class CameraRig {
     this.changed();
   }
 
+  /** Step back until all of a box is in view. */
+  include(box: Box3): void {
+    const ball = box.getBoundingSphere(new Sphere());
+    const view = new Matrix4();
+    const frustum = new Frustum();
+    const isSeen = (): boolean => {
+      this.camera.updateMatrixWorld();
+      view.multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+      frustum.setFromProjectionMatrix(view);
+      return frustum.planes.every((plane) => plane.distanceToPoint(ball.center) >= ball.radius);
+    };
+    while (!isSeen() && this.distance < FURTHEST) {
+      const offset = this.camera.position.clone().sub(this.target).multiplyScalar(1.1);
+      this.camera.position.copy(this.target).add(offset);
+      this.camera.lookAt(this.target);
+    }
+    this.controls.update();
+    this.changed();
+  }
+
   /** Get behind a robot whose extent is `box`, and stay there. */
   startFollowing(pose: Matrix4, box: Box3): void {
     this.frame(box, FOLLOWING_MARGIN);
@@ -127,6 +148,9 @@ export class CameraRig {
 
   /** With the picture in focus: Shift and arrows turn, + and - zoom, Home goes back. */
   private readonly onKey = (event: KeyboardEvent): void => {
+    if (event.ctrlKey || event.metaKey || event.altKey) {
+      return; // the browser's own: Ctrl and + zoom the page
+    }
     const offset = this.camera.position.clone().sub(this.target);
     const elevation = Math.asin(offset.z / offset.length());
     const side = new Vector3().crossVectors(UP, offset).normalize();

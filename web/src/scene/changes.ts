@@ -17,7 +17,7 @@ export function differ(before: State | null, after: State): boolean {
     return true;
   }
   for (let i = 0; i < now.length; i++) {
-    const isSame = Math.abs(now[i] - old[i]) <= TOLERANCE * Math.max(1, Math.abs(old[i]));
+    const isSame = Math.abs(now[i]! - old[i]!) <= TOLERANCE * Math.max(1, Math.abs(old[i]!));
     if (!isSame && !(Number.isNaN(now[i]) && Number.isNaN(old[i]))) {
       return true;
     }

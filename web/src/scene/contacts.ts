@@ -12,7 +12,7 @@ import {
   Vector3,
 } from 'three';
 import { WHEEL_FLOATS } from '../protocol';
-import type { RobotState } from '../state';
+import type { RobotState, WheelNumbers } from '../state';
 import type { RobotView } from './robot';
 import { Segments } from './segments';
 import type { Palette } from './theme';
@@ -70,10 +70,10 @@ export class Contacts {
   add(view: RobotView, joints: readonly string[], state: RobotState): void {
     const values = (wheel: number): Float32Array =>
       state.wheels.subarray(WHEEL_FLOATS * wheel, WHEEL_FLOATS * (wheel + 1));
-    const loads = joints.map((_, wheel) => values(wheel)[1]).filter((load) => load > 0);
+    const loads = joints.map((_, wheel) => values(wheel)[1]!).filter((load) => load > 0);
     const mean = loads.reduce((sum, load) => sum + load, 0) / Math.max(1, loads.length);
     joints.forEach((joint, wheel) => {
-      const [contact, load, along, across] = values(wheel);
+      const [contact, load, along, across] = values(wheel) as unknown as WheelNumbers;
       const footing = contact > 0 ? this.footingOf(view, joint) : null;
       if (footing !== null && this.discs.count < MOST) {
         this.drawDisc(footing, load / mean);

@@ -13,7 +13,7 @@ export function rainbow(): Uint8Array {
     const place = ((STOPS.length - 1) * Math.floor(at / 3)) / (STEPS - 1);
     const stop = Math.min(Math.floor(place), STOPS.length - 2);
     const colour = new Color(STOPS[stop]).lerp(new Color(STOPS[stop + 1]), place - stop);
-    return Math.round(255 * colour.toArray()[at % 3]);
+    return Math.round(255 * colour.toArray()[at % 3]!);
   });
   return table;
 }

@@ -32,6 +32,7 @@ const FRAGMENT = /* glsl */ `
   uniform vec2 fog;
   uniform float solid;
   uniform float ruled;
+  uniform float width;
   varying vec2 place;
   varying float depth;
 
@@ -48,7 +49,7 @@ const FRAGMENT = /* glsl */ `
 
   void main() {
     float near = clamp((fog.y - depth) / (fog.y - fog.x), 0.0, 1.0);
-    vec2 pixel = max(fwidth(place), vec2(1e-6));
+    vec2 pixel = max(width * fwidth(place), vec2(1e-6));
     float strong = 0.0;
     float cover = 0.0;
     if (ruled * near > 0.0) {
@@ -71,10 +72,6 @@ const CELLS = 24;
 export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
   /** `extent` in m, from the middle to the edge. */
   constructor(extent: number, private readonly mist: Fog) {
-    const colours = ['base', 'minor', 'major', 'horizon'].map((name) => [
-      name,
-      { value: new Color() },
-    ]);
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -82,11 +79,15 @@ export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
       uniforms: {
-        ...Object.fromEntries(colours),
+        base: { value: new Color() },
+        minor: { value: new Color() },
+        major: { value: new Color() },
+        horizon: { value: new Color() },
         middle: { value: new Vector2() },
         fog: { value: new Vector2() },
         solid: { value: 0 },
         ruled: { value: 1 },
+        width: { value: 1 }, // of a line, pixels
       },
     });
     super(planeOf(extent), material);
@@ -97,29 +98,34 @@ export class Ground extends Mesh<PlaneGeometry, ShaderMaterial> {
 
   /** Be a ground, or a grid only, that one can look through. */
   setSolid(solid: boolean): void {
-    this.material.uniforms.solid.value = Number(solid);
+    this.material.uniforms.solid!.value = Number(solid);
     this.material.transparent = !solid;
     this.material.depthWrite = solid;
   }
 
+  /** Draw lines of a CSS pixel, of which the picture has so many, but never less than one. */
+  setPixels(pixels: number): void {
+    this.material.uniforms.width!.value = Math.max(1, pixels);
+  }
+
   showGrid(shown: boolean): void {
-    this.material.uniforms.ruled.value = Number(shown);
+    this.material.uniforms.ruled!.value = Number(shown);
   }
 
   /** Have its middle below a point of the ground, m. */
   follow(x: number, y: number): void {
     const { middle, fog } = this.material.uniforms;
     this.position.set(x, y, 0);
-    (middle.value as Vector2).set(x, y);
-    (fog.value as Vector2).set(this.mist.near, this.mist.far);
+    (middle!.value as Vector2).set(x, y);
+    (fog!.value as Vector2).set(this.mist.near, this.mist.far);
   }
 
   setPalette(palette: Palette): void {
     const { base, minor, major, horizon } = this.material.uniforms;
-    (base.value as Color).set(palette.ground);
-    (minor.value as Color).set(palette.gridMinor);
-    (major.value as Color).set(palette.gridMajor);
-    (horizon.value as Color).set(palette.horizon);
+    (base!.value as Color).set(palette.ground);
+    (minor!.value as Color).set(palette.gridMinor);
+    (major!.value as Color).set(palette.gridMajor);
+    (horizon!.value as Color).set(palette.horizon);
   }
 }
 

@@ -35,7 +35,7 @@ export class StateHistory {
   /** The state whose time is nearest; the latest, where the stamp is of another clock. */
   nearest(stamp: number): State | null {
     const { states } = this;
-    if (states.length === 0 || stamp < states[0].time - SKEW) {
+    if (states.length === 0 || stamp < states[0]!.time - SKEW) {
       return this.latest;
     }
     let after = states.findIndex(({ time }) => time >= stamp);
@@ -43,15 +43,15 @@ export class StateHistory {
       return this.latest;
     }
     const before = Math.max(0, after - 1);
-    if (stamp - states[before].time < states[after].time - stamp) {
+    if (stamp - states[before]!.time < states[after]!.time - stamp) {
       after = before;
     }
-    return states[after];
+    return states[after] ?? null;
   }
 
   /** Whether no later state can be nearer. */
   isSettled(stamp: number): boolean {
     const { latest } = this;
-    return latest !== null && latest.time >= stamp && stamp >= this.states[0].time - SKEW;
+    return latest !== null && latest.time >= stamp && stamp >= this.states[0]!.time - SKEW;
   }
 }

@@ -8,6 +8,7 @@ export interface Anchor {
   y: number;
   width: number;
   height: number;
+  isAbove?: boolean; // the label is best right above its point
 }
 
 export interface PlacedLabel {
@@ -28,6 +29,7 @@ const DISTANCES = [10, 22, 40, 64, 92]; // from the point to its label
 const DIRECTIONS = 12;
 const CLUSTER = 220; // points within are about one another
 const HABIT = 0.8;
+const UP = { x: 0, y: -1 };
 
 /**
  * Find a place for each label, near its point; the first ones choose first.
@@ -42,23 +44,24 @@ export function placeLabels(
   const taken: Box[] = [];
   const placed: PlacedLabel[] = [];
   for (const anchor of anchors) {
-    const outward = outwardOf(anchor, anchors);
+    const outward = anchor.isAbove === true ? UP : outwardOf(anchor, anchors);
     const habit = habits.get(anchor.key);
     const cost = (index: number): number =>
-      costOf(PLACES[index], outward) - (index === habit ? HABIT : 0);
+      costOf(PLACES[index]!, outward) - (index === habit ? HABIT : 0);
     const order = [...PLACES.keys()].sort((a, b) => cost(a) - cost(b));
     const boxes = PLACES.map((place) => boxAt(anchor, place));
     const choice = order.find(
       (index) =>
-        isWithin(boxes[index], width, height) &&
-        !taken.some((other) => overlap(boxes[index], other)),
+        isWithin(boxes[index]!, width, height) &&
+        !taken.some((other) => overlap(boxes[index]!, other)),
     );
     if (choice === undefined) {
       continue;
     }
     habits.set(anchor.key, choice);
-    taken.push(boxes[choice]);
-    placed.push({ key: anchor.key, left: boxes[choice].left, top: boxes[choice].top });
+    const box = boxes[choice]!;
+    taken.push(box);
+    placed.push({ key: anchor.key, left: box.left, top: box.top });
   }
   return placed;
 }

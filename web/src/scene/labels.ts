@@ -7,14 +7,17 @@ import { placeLabels, type Anchor } from './label_places';
 import type { Palette } from './theme';
 
 export interface Label {
+  key: string;
   text: string;
   at: Vector3; // m, in the frame of the scene
   isStrong: boolean;
+  colour?: string; // a robot's, that its name is written on
 }
 
 const FONT = '500 11.5px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif';
 const HEIGHT = 18; // CSS pixels
 const PADDING = 6;
+const FINEST = 2; // pixels to a CSS pixel
 
 export class Labels {
   private readonly canvas = document.createElement('canvas');
@@ -32,8 +35,9 @@ export class Labels {
     below.after(this.canvas);
   }
 
-  /** Take the size of the canvas below; `ratio`: pixels to a CSS pixel. */
-  resize(ratio: number): void {
+  /** Take the size of the canvas below. */
+  resize(): void {
+    const ratio = Math.min(devicePixelRatio || 1, FINEST);
     const { offsetLeft, offsetTop, clientWidth, clientHeight } = this.below;
     this.canvas.width = Math.round(clientWidth * ratio);
     this.canvas.height = Math.round(clientHeight * ratio);
@@ -59,17 +63,24 @@ export class Labels {
     pen.textBaseline = 'middle';
     const anchors = this.anchorsOf(labels, camera, width, height);
     const points = new Map(anchors.map((anchor) => [anchor.key, anchor]));
-    const strong = new Set(labels.filter((each) => each.isStrong).map(({ text }) => text));
+    const byKey = new Map(labels.map((label) => [label.key, label]));
     for (const { key, left, top } of placeLabels(anchors, width, height, this.habits)) {
       const anchor = points.get(key) as Anchor;
-      pen.fillStyle = palette.labelBack;
-      pen.strokeStyle = palette.tree;
+      const { text, isStrong, colour } = byKey.get(key) as Label;
+      pen.fillStyle = colour ?? palette.labelBack;
+      pen.strokeStyle = colour ?? palette.tree;
       this.drawLeader(pen, anchor, left, top);
       pen.beginPath();
       pen.roundRect(left, top, anchor.width, HEIGHT, HEIGHT / 2);
       pen.fill();
-      pen.fillStyle = strong.has(key) ? palette.labelFixed : palette.label;
-      pen.fillText(key, left + PADDING, top + HEIGHT / 2 + 0.5);
+      if (colour !== undefined && isStrong) {
+        pen.lineWidth = 2;
+        pen.strokeStyle = palette.label;
+        pen.stroke();
+      }
+      const plain = isStrong ? palette.labelFixed : palette.label;
+      pen.fillStyle = colour === undefined ? plain : palette.robotText;
+      pen.fillText(text, left + PADDING, top + HEIGHT / 2 + 0.5);
     }
     this.isBlank = labels.length === 0;
   }
@@ -77,14 +88,17 @@ export class Labels {
   private anchorsOf(
     labels: readonly Label[], camera: Camera, width: number, height: number,
   ): Anchor[] {
-    const seen = labels.map(({ text, at, isStrong }) => {
+    const seen = labels.map(({ key, text, at, isStrong, colour }) => {
       const { x, y, z } = this.point.copy(at).project(camera);
-      return { text, isStrong, x: ((x + 1) / 2) * width, y: ((1 - y) / 2) * height, z };
+      const isAbove = colour !== undefined;
+      return { key, text, isStrong, isAbove, x: ((x + 1) / 2) * width, y: ((1 - y) / 2) * height, z };
     });
     return seen
       .filter(({ x, y, z }) => z < 1 && x >= 0 && x <= width && y >= 0 && y <= height)
       .sort((a, b) => Number(b.isStrong) - Number(a.isStrong) || a.z - b.z)
-      .map(({ text, x, y }) => ({ key: text, x, y, width: this.widthOf(text), height: HEIGHT }));
+      .map(({ key, text, x, y, isAbove }) => {
+        return { key, x, y, width: this.widthOf(text), height: HEIGHT, isAbove };
+      });
   }
 
   private widthOf(text: string): number {

@@ -90,7 +90,7 @@ export class Highlight {
         }
         return copy;
       });
-      mesh.material = Array.isArray(mesh.material) ? lit : lit[0];
+      mesh.material = Array.isArray(mesh.material) ? lit : lit[0]!;
     }
   }
 
@@ -107,7 +107,7 @@ export class Highlight {
 export function disposeTree(object: Object3D): void {
   object.traverse((each) => {
     if (each instanceof Mesh || each instanceof LineSegments) {
-      each.geometry.dispose();
+      (each.geometry as BufferGeometry).dispose();
       [each.material as Material | Material[]].flat().forEach((material) => {
         if (material instanceof MeshPhongMaterial) {
           material.map?.dispose();

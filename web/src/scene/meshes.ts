@@ -99,7 +99,9 @@ function dress(object: Object3D, material: Material): Object3D {
     }
     const own = [each.material].flat() as MeshPhongMaterial[];
     const isPlain = own.every(({ name, map }) => name === '' && !map);
-    each.material = isPlain ? twoSided(material) : each.material;
+    if (isPlain) {
+      each.material = twoSided(material);
+    }
     own.forEach((one) => (one.side = DoubleSide));
   });
   return object;

@@ -13,7 +13,7 @@ export function meshesOf(object: Object3D, deep: boolean): Mesh[] {
       return;
     }
     if (each instanceof Mesh) {
-      found.push(each);
+      found.push(each as Mesh);
     }
     each.children.forEach(visit);
   };

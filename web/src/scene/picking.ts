@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Clicks, as distinct from drags: which link of which robot is under them. */
 import { Raycaster, Vector2 } from 'three';
-import type { Camera } from 'three';
+import type { Camera, Ray, Vector3 } from 'three';
+import type { Placing } from './placing';
 import type { RobotView } from './robot';
 
 const STILL = 5; // CSS pixels; a pointer that moves further drags
@@ -11,6 +12,11 @@ const SHORT = 500; // ms
 export interface Picked {
   robot: string;
   link: string | null;
+}
+
+/** What is under a point of the page. */
+export interface Hit extends Picked {
+  point: Vector3; // in the frame of the scene
 }
 
 export class Picking {
@@ -22,6 +28,7 @@ export class Picking {
     private readonly camera: Camera,
     private readonly views: () => Iterable<[string, RobotView]>,
     private readonly picked: (what: Picked | null) => void,
+    private readonly placing: Placing,
   ) {
     canvas.addEventListener('pointerdown', (event) => this.onDown(event));
     canvas.addEventListener('pointerup', (event) => this.onUp(event));
@@ -39,23 +46,35 @@ export class Picking {
       return;
     }
     if (Math.hypot(clientX - down.x, clientY - down.y) <= STILL) {
-      this.picked(this.at(clientX, clientY));
+      if (this.placing.isActive) {
+        this.placing.point(clientX, clientY);
+        this.placing.onChosen();
+      } else {
+        this.picked(this.at(clientX, clientY));
+      }
     }
   }
 
-  /** The nearest link under a point of the page. */
-  private at(clientX: number, clientY: number): Picked | null {
+  /** The ray from the eye through a point of the page. */
+  rayAt(clientX: number, clientY: number): Ray {
     const { left, top, width, height } = this.canvas.getBoundingClientRect();
     const x = ((clientX - left) / width) * 2 - 1;
     const y = 1 - ((clientY - top) / height) * 2;
+    this.camera.updateMatrixWorld(); // it may have been turned since the last frame
     this.caster.setFromCamera(new Vector2(x, y), this.camera);
+    return this.caster.ray;
+  }
+
+  /** The nearest link under a point of the page. */
+  at(clientX: number, clientY: number): Hit | null {
+    this.rayAt(clientX, clientY);
     let nearest = Infinity;
-    let found: Picked | null = null;
+    let found: Hit | null = null;
     for (const [robot, view] of this.views()) {
       const [hit] = view.object.visible ? this.caster.intersectObjects(view.visuals(), false) : [];
       if (hit !== undefined && hit.distance < nearest) {
         nearest = hit.distance;
-        found = { robot, link: view.linkOf(hit.object) };
+        found = { robot, link: view.linkOf(hit.object), point: hit.point };
       }
     }
     return found;

@@ -1,21 +1,27 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** All that is to be seen, where the last state has it, in the fixed frame. */
-import { Box3, Matrix4, Scene as ThreeScene, Vector3 } from 'three';
-import type { Layout, Model } from '../protocol';
-import type { SensorInfo } from '../protocol';
+import { Matrix4, Scene as ThreeScene, Vector3 } from 'three';
+import type { Layout, Model, SensorInfo } from '../protocol';
 import type { Sample } from '../samples';
-import { isKnownPose, type State } from '../state';
-import { Axes, type PlacedFrame } from './axes';
+import type { State } from '../state';
+import { Axes, labelsOf, type PlacedFrame } from './axes';
 import { differ } from './changes';
 import { Contacts } from './contacts';
 import { RobotEntry } from './entry';
+import { linkFacts } from '../links';
 import { StateHistory } from './history';
-import { Placement, WORLD, type Body } from './placement';
-import type { RobotEvents, RobotView } from './robot';
+import type { Label } from './labels';
+import { LinkMarks } from './link_marks';
+import { NavigationLayer } from './navigation';
+import type { LocateFrame } from './grids';
+import { automaticFrame, isMap, namesOfFrames, Placement, WORLD, type Body } from './placement';
+import type { RobotEvents } from './robot';
+import { RobotMarks, type SceneRobot } from './robot_marks';
+import { Robots } from './robots';
 import { SensorLayer, type Locate } from './sensors';
 import { Surroundings } from './surroundings';
-import type { Palette } from './theme';
+import { PALETTES, type Palette } from './theme';
 import { FrameTree, readPose } from './tree';
 import { WorldView } from './world';
 
@@ -27,10 +33,11 @@ export interface SceneOptions {
   contacts: boolean;
   collisions: boolean;
   grid: boolean;
+  maps: boolean;
+  paths: boolean;
 }
 
-const AXIS_SHARE = 0.28; // of the robot's size
-const NEAR = 12; // m; robots further away are not brought into view with the first
+const CHOSEN_SHARE = 1.8; // how much longer axes of the chosen frame are
 const EMPTY = { type: 'layout', id: -1, frames: [], robots: [] } satisfies Layout;
 
 export class Picture {
@@ -40,19 +47,26 @@ export class Picture {
   readonly world: WorldView;
   readonly surroundings: Surroundings;
   readonly sensors = new SensorLayer();
+  readonly navigation: NavigationLayer;
   options: SceneOptions = {
     frames: true, frameNames: true, trails: true, contacts: true, collisions: false, grid: true,
+    maps: true, paths: true,
   };
   /** The frame that was asked for; null: the one that suits. */
   chosenFrame: string | null = null;
+  /** The frame that is lit up. */
+  selected: string | null = null;
   /** The frame that stands still, as of the last {@link place}. */
   fixedFrame = WORLD;
   /** The frames that have a place. */
   placed: readonly PlacedFrame[] = [];
-  private readonly robots = new Map<string, RobotEntry>();
+  readonly robots = new Robots();
   private readonly placement = new Placement();
   private readonly axes = new Axes();
   private readonly contacts = new Contacts();
+  private readonly links = new LinkMarks();
+  private readonly marks = new RobotMarks();
+  private palette = PALETTES.light;
   private readonly history = new StateHistory();
   private layout: Layout = EMPTY;
   private tree = new FrameTree(EMPTY);
@@ -60,11 +74,18 @@ export class Picture {
   private drawn: State | null = null; // the last one that was
   private isWaiting = false; // for the first state of a new layout; what is drawn stays until then
 
-  constructor(private readonly isSoftware: boolean) {
+  /** `changed`: something is there that had to be made; `failed`: it cannot be, in one line. */
+  constructor(
+    private readonly isSoftware: boolean,
+    changed: () => void = () => {},
+    failed: (text: string) => void = () => {},
+  ) {
+    this.navigation = new NavigationLayer(changed, failed);
     this.world = new WorldView(!isSoftware);
     this.surroundings = new Surroundings(this.scene, isSoftware);
-    this.scene.add(this.world.object, this.sensors.points);
-    this.overlay.add(this.axes.object, this.contacts.object, this.sensors.marks);
+    this.scene.add(this.world.object, this.sensors.points, this.navigation.object);
+    const { axes, contacts, sensors, links, navigation } = this;
+    this.overlay.add(navigation.marks, axes.object, contacts.object, sensors.marks, links.object);
   }
 
   /** Draw a robot, in place of an earlier one of its name. Throws BadModel. */
@@ -75,13 +96,42 @@ export class Picture {
     this.robots.set(model.robot, entry);
     entry.view.setPalette(palette);
     entry.view.showCollisions(this.options.collisions);
-    this.scene.add(entry.view.object, entry.trails.object);
+    before?.mark.dispose();
+    this.scene.add(entry.view.object, entry.trails.object, entry.mark.object);
+    this.mark();
+  }
+
+  /** Mark these robots, each by a colour of its own where there are several. */
+  setRobots(robots: readonly SceneRobot[]): void {
+    this.marks.keep(robots);
+    this.mark();
+  }
+
+  private mark(): void {
+    this.marks.dress(this.robots, this.palette);
+  }
+
+  /** The names of robots where there are several, and of frames. */
+  labels(): Label[] {
+    const areShown = this.options.frames && this.options.frameNames;
+    const named = this.placed.filter(({ name }) => areShown || name === this.selected);
+    return [
+      ...this.marks.labels(this.robots, this.palette),
+      ...labelsOf(named, this.selected ?? this.fixedFrame),
+    ];
+  }
+
+  /** Light up a frame: its axes and name, and the link that it is; null: none. */
+  select(robot: string | null, frame: string | null): void {
+    this.selected = frame;
+    const chosen = this.robots.choose(robot, frame, this.palette.highlight);
+    const facts = chosen && linkFacts(chosen.entry.view.model.urdf, chosen.link);
+    this.links.show(chosen?.entry.view ?? null, facts, CHOSEN_SHARE * (chosen?.entry.axisLength ?? 0));
   }
 
   removeRobot(robot: string): void {
     this.forgetAnchor(robot);
-    this.robots.get(robot)?.dispose();
-    this.robots.delete(robot);
+    this.robots.remove(robot);
   }
 
   setLayout(layout: Layout): void {
@@ -110,19 +160,24 @@ export class Picture {
   setOptions(options: Partial<SceneOptions>): void {
     this.options = { ...this.options, ...options };
     this.surroundings.showGrid(this.options.grid);
-    this.views().forEach((view) => view.showCollisions(this.options.collisions));
+    this.navigation.show(this.options);
+    this.robots.views().forEach((view) => view.showCollisions(this.options.collisions));
   }
 
   setPalette(palette: Palette): void {
-    const { surroundings, world, axes, contacts, sensors } = this;
-    for (const each of [surroundings, world, axes, contacts, sensors, ...this.views().values()]) {
+    const { surroundings, world, axes, contacts, sensors, links, navigation } = this;
+    this.palette = palette;
+    for (const each of [surroundings, world, axes, contacts, sensors, links, navigation, ...this.robots.views().values()]) {
       each.setPalette(palette);
     }
+    this.mark();
   }
 
   /** Take over a sample. */
   setSample(info: SensorInfo, sample: Sample): void {
-    this.sensors.take(info, sample);
+    if (!this.navigation.take(info, sample)) {
+      this.sensors.take(info, sample);
+    }
   }
 
   /** A robot's mesh has come. */
@@ -139,30 +194,14 @@ export class Picture {
     this.robots.forEach(({ trails }) => trails.clear());
   }
 
-  trailSizes(): Record<string, [truth: number, odometry: number]> {
-    const sizes = [...this.robots].map(([id, { trails }]) => [id, trails.counts] as const);
-    return Object.fromEntries(sizes);
+  /** Where odometry and truth agreed: the pose in world of the root of each TF tree. */
+  get anchors(): Map<string, Matrix4> {
+    return this.placement.anchors;
   }
 
-  /** The robots by their names. */
-  views(): Map<string, RobotView> {
-    return new Map([...this.robots].map(([id, { view }]) => [id, view]));
-  }
-
-  /** The size of the largest robot, m; 1 where there is none. */
-  get size(): number {
-    return Math.max(0, ...[...this.robots.values()].map((entry) => entry.size)) || 1;
-  }
-
-  /** All frames there are. */
-  frames(): string[] {
-    const names = new Set(this.tree.names);
-    for (const { body } of this.robots.values()) {
-      if (body !== null) {
-        names.add(body.base);
-      }
-    }
-    return this.hasTruth() ? [WORLD, ...[...names].filter((name) => name !== WORLD)] : [...names];
+  /** Where `world` is in the fixed frame; null: nowhere. */
+  get worldPose(): Matrix4 | null {
+    return this.placement.poseOf(WORLD);
   }
 
   /** The pose of a robot's base in the fixed frame; null: it has none. */
@@ -171,17 +210,10 @@ export class Picture {
     return body ? this.placement.poseOfBody(body) : null;
   }
 
-  /** The extent of the robots that are near the first one, m. */
-  bounds(): Box3 {
-    const box = new Box3();
-    for (const view of this.views().values()) {
-      const bounds = view.object.visible ? view.bounds() : new Box3();
-      const isNear = box.isEmpty() || bounds.distanceToPoint(box.getCenter(new Vector3())) < NEAR;
-      if (isNear) {
-        box.union(bounds);
-      }
-    }
-    return box;
+  /** Let one look through what hides a robot from the eye; null: through nothing. */
+  reveal(eye: Vector3, robot: string | null): void {
+    const entry = robot === null ? undefined : this.robots.get(robot);
+    this.world.reveal(eye, entry?.middles(eye) ?? []);
   }
 
   /** Put everything where the last state has it. */
@@ -191,20 +223,43 @@ export class Picture {
     }
     this.readState();
     const before = this.fixedFrame;
-    this.fixedFrame = this.chosenFrame ?? this.defaultFrame();
+    const { bodies } = this;
+    const isBare = bodies.length === 0 && this.world.hasGround; // a world without robots
+    this.fixedFrame = this.chosenFrame ?? (isBare ? WORLD : automaticFrame(this.tree, bodies));
     if (this.fixedFrame !== before) {
       this.sensors.unsettle();
     }
     const entries = [...this.robots.values()];
-    const bodies = entries.flatMap(({ body }) => body ?? []);
     this.placement.update(this.tree, bodies, this.fixedFrame);
     const world = this.placement.poseOf(WORLD);
     this.world.place(world);
     this.surroundings.setGround(this.world.hasGround ? world : null);
     entries.forEach((entry) => entry.place(this.placement, world, this.options.trails));
+    this.links.place();
     this.placeFrames();
     this.placeContacts();
     this.sensors.place(this.locator());
+    this.navigation.place(this.locateFrame, this.believed());
+  }
+
+  /** Where a frame of a robot is in the scene; of a map that is no robot's, any frame of its name. */
+  readonly locateFrame: LocateFrame = (frame, robot) => {
+    const others = [...this.tree.names].filter((name) => robot === '' && name.endsWith(`/${frame}`));
+    const names = [`${robot.slice(1)}/${frame}`, frame, ...others].filter((name) => this.tree.has(name));
+    if (names.length === 0) {
+      // Whoever ties the map to TF waits for a pose; until then it lies where the scene begins.
+      return this.placement.poseOf(frame) ?? this.worldPose ?? new Matrix4();
+    }
+    return this.placement.poseOf(names[0]!);
+  };
+
+  /** Where robots are as their TF has it, where the truth is known as well. */
+  private believed(): Matrix4[] {
+    return this.bodies.flatMap(({ base, truth }) => {
+      const root = this.tree.rootOf(base);
+      const [place, inRoot] = [this.placement.poseOf(root), this.tree.inRoot(base)];
+      return truth === null || !isMap(root) || place === null || inRoot === null ? [] : place.clone().multiply(inRoot);
+    });
   }
 
   /** Where sensors were: what is asked more than once of a state is worked out once. */
@@ -256,14 +311,20 @@ export class Picture {
   }
 
   private placeFrames(): void {
-    this.placed = this.frames().flatMap((name) => {
+    this.placed = namesOfFrames(this.tree, this.bodies).flatMap((name) => {
       const pose = this.placement.poseOf(name);
       const parent = this.tree.parentOf(name);
       const above = parent === null ? null : this.placement.poseOf(parent);
-      return pose === null ? [] : { name, pose, parent: above };
+      return pose === null ? [] : { name, pose, parent: above, length: this.axisLengthOf(name) };
     });
-    this.axes.object.visible = this.options.frames;
-    this.axes.draw(this.placed, AXIS_SHARE * this.size);
+    this.axes.draw(this.placed.filter(({ name }) => this.options.frames || name === this.selected));
+  }
+
+  private axisLengthOf(frame: string): number {
+    const entries = [...this.robots.values()];
+    const owner = entries.find(({ body }) => body?.links.has(frame));
+    const length = owner?.axisLength ?? Math.max(0, ...entries.map((each) => each.axisLength));
+    return (length || 0.3) * (frame === this.selected ? CHOSEN_SHARE : 1);
   }
 
   private placeContacts(): void {
@@ -278,16 +339,7 @@ export class Picture {
     this.contacts.commit();
   }
 
-  private hasTruth(): boolean {
-    return this.state?.robots.some(({ truth }) => isKnownPose(truth)) ?? false;
-  }
-
-  private defaultFrame(): string {
-    if (this.hasTruth()) {
-      return WORLD;
-    }
-    const base = [...this.robots.values()].find(({ body }) => body !== null)?.body?.base;
-    const [first] = this.tree.names;
-    return base !== undefined ? this.tree.rootOf(base) : (first ?? WORLD);
+  private get bodies(): readonly Body[] {
+    return [...this.robots.values()].flatMap(({ body }) => body ?? []);
   }
 }

@@ -15,6 +15,13 @@ import type { FrameTree } from './tree';
 
 /** The frame of the truth. */
 export const WORLD = 'world';
+const NEAR = { distance: 1, angle: 0.35 }; // m, rad: a map of the world that is not quite where it is
+const JUMP = { distance: 0.5, angle: 0.35 }; // what localisation corrects at once or in the long run
+
+/** Whether a frame is that of a map, by its name (REP 105). */
+export function isMap(frame: string): boolean {
+  return frame === 'map' || frame.endsWith('/map');
+}
 
 /** A robot, as far as places go. */
 export interface Body {
@@ -34,12 +41,17 @@ export class Placement {
   private bases = new Map<Body, Place>();
   private fixed: Place | null = null; // its pose is the inverse: from its reference to it
 
-  /** `anchors`: root of a TF tree -> its pose in world. */
-  constructor(private readonly anchors = new Map<string, Matrix4>()) {}
+  /**
+   * `anchors`: root of a TF tree -> its pose in world; `corrections`: … -> what localisation said then.
+   */
+  constructor(
+    readonly anchors = new Map<string, Matrix4>(),
+    private readonly corrections = new Map<string, Matrix4>(),
+  ) {}
 
   /** Where everything was at another time, by what is known since then of odometry and truth. */
   at(tree: FrameTree, bodies: readonly Body[], fixedFrame: string): Placement {
-    const other = new Placement(this.anchors);
+    const other = new Placement(this.anchors, this.corrections);
     other.update(tree, bodies, fixedFrame);
     return other;
   }
@@ -47,6 +59,7 @@ export class Placement {
   /** Forget where odometry and truth agreed; at a reset. */
   clear(): void {
     this.anchors.clear();
+    this.corrections.clear();
   }
 
   /** … of one TF tree, by its root. */
@@ -73,6 +86,13 @@ export class Placement {
   /** The pose of a frame in the fixed frame; null if the two are not connected. */
   poseOf(frame: string): Matrix4 | null {
     return this.inFixed(this.places.get(frame));
+  }
+
+  /** The pose of a frame in another one; null if the two are not connected. */
+  poseIn(frame: string, target: string): Matrix4 | null {
+    const [one, other] = [this.places.get(frame), this.places.get(target)];
+    const areConnected = one !== undefined && one.reference === other?.reference;
+    return areConnected ? other.pose.clone().invert().multiply(one.pose) : null;
   }
 
   /** The pose of a robot's base in the fixed frame. */
@@ -104,13 +124,30 @@ export class Placement {
       if (roots.has(root) || !tree.has(base)) {
         continue;
       }
-      const anchor = this.anchors.get(root) ?? anchorOf(truth, tree.inRoot(base));
+      this.forgetCorrected(tree, root, base);
+      const anchor = this.anchors.get(root) ?? snapped(root, anchorOf(truth, tree.inRoot(base)));
       if (anchor !== null) {
         this.anchors.set(root, anchor);
         roots.set(root, { reference: WORLD, pose: anchor });
       }
     }
     return roots;
+  }
+
+  /**
+   * Forget where a map lies once localisation has corrected itself, such as by an initial pose: what
+   * the two agreed on before was wrong.
+   */
+  private forgetCorrected(tree: FrameTree, root: string, base: string): void {
+    const correction = isMap(root) ? tree.localOf(tree.belowRoot(base)) : null;
+    if (correction === null) {
+      return;
+    }
+    const before = this.corrections.get(root);
+    if (before === undefined || !isWithin(before.clone().invert().multiply(correction), JUMP)) {
+      this.anchors.delete(root);
+      this.corrections.set(root, correction.clone());
+    }
   }
 
   private placeBody(
@@ -166,4 +203,48 @@ export class Placement {
 /** Where the root of a TF tree is in `world` if truth and TF agree on the base now. */
 function anchorOf(truth: Matrix4 | null, inRoot: Matrix4 | null): Matrix4 | null {
   return truth && inRoot && truth.clone().multiply(inRoot.invert());
+}
+
+/**
+ * A map that lies about where `world` does is one of the world, and its robot not quite localised: the
+ * two are the same. Another one, such as of SLAM, begins where its robot did.
+ */
+function snapped(root: string, anchor: Matrix4 | null): Matrix4 | null {
+  return anchor !== null && isMap(root) && isWithin(anchor, NEAR) ? new Matrix4() : anchor;
+}
+
+function isWithin(pose: Matrix4, { distance, angle }: typeof NEAR): boolean {
+  const { elements } = pose;
+  const cosine = (elements[0] + elements[5] + elements[10] - 1) / 2;
+  return Math.hypot(elements[12], elements[13], elements[14]) <= distance && cosine >= Math.cos(angle);
+}
+
+/** All frames that can stand still: those of TF, bases without one, and `world` where there is truth. */
+export function namesOfFrames(tree: FrameTree, bodies: readonly Body[]): string[] {
+  const names = new Set([...tree.names, ...bodies.map(({ base }) => base)]);
+  names.delete(WORLD);
+  const hasWorld = tree.has(WORLD) || hasTruth(bodies);
+  return hasWorld ? [WORLD, ...names] : [...names];
+}
+
+/** The fixed frame that suits: `world` where there is truth, else the root of the first robot's TF. */
+export function automaticFrame(tree: FrameTree, bodies: readonly Body[]): string {
+  if (hasTruth(bodies)) {
+    return WORLD;
+  }
+  const [first] = tree.names;
+  const base = bodies[0]?.base;
+  return base !== undefined ? tree.rootOf(base) : (first ?? WORLD);
+}
+
+function hasTruth(bodies: readonly Body[]): boolean {
+  return bodies.some(({ truth }) => truth !== null);
+}
+
+/** Links are frames of the same name, in a namespace often behind "<namespace>/"; that, or ''. */
+export function prefixOf(tree: FrameTree, robot: string, base: string): string {
+  const namespace = robot.replace(/^\//, '');
+  const own = namespace && `${namespace}/`;
+  const isPlain = !tree.has(own + base) && tree.has(base);
+  return isPlain ? '' : own;
 }

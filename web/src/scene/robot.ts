@@ -47,6 +47,7 @@ export class RobotView {
   private readonly edges = new LineBasicMaterial({ transparent: true });
   private collider = collisionMaterial(PALETTES.light.collision);
   private chosen: string | null = null;
+  private areCollisionsShown = false;
 
   /** Throws {@link BadModel} where the URDF cannot be drawn at all. */
   constructor(
@@ -58,7 +59,7 @@ export class RobotView {
     this.object.matrixAutoUpdate = false;
     this.object.visible = false;
     this.listParts(this.object, -1, null);
-    const root = this.parts[0];
+    const root = this.parts[0]!;
     // A robot that is fixed to the world by its URDF is its first link.
     this.basePart = (root.name === WORLD && this.parts[1]) || root;
     this.base = this.basePart.name;
@@ -74,7 +75,7 @@ export class RobotView {
     const moving = this.parts.filter(({ joint }) => joint !== null && joint.jointType !== 'fixed');
     return moving.map(({ name, parent, joint }) => ({
       link: name,
-      parent: this.parts[parent].name,
+      parent: this.parts[parent]!.name,
       joint: joint?.name ?? '',
     }));
   }
@@ -86,7 +87,7 @@ export class RobotView {
         const joint = this.object.joints[name];
         const known = joint !== undefined && Number.isFinite(positions[index]);
         if (known && isMimicJoint(joint) === isMimic) {
-          joint.setJointValue(positions[index]);
+          joint.setJointValue(positions[index]!);
         }
       });
     }
@@ -105,7 +106,7 @@ export class RobotView {
     for (const { joint, parent, pose } of this.parts) {
       if (joint !== null) {
         joint.updateMatrix();
-        pose.multiplyMatrices(this.parts[parent].pose, joint.matrix);
+        pose.multiplyMatrices(this.parts[parent]!.pose, joint.matrix);
       }
     }
     const toBase = this.basePart.pose.clone().invert();
@@ -130,6 +131,29 @@ export class RobotView {
     return box;
   }
 
+  /** Its visible extent in its base, m, as its joints are; null: nothing is drawn. */
+  localBounds(): Box3 | null {
+    const box = new Box3();
+    const toBase = new Matrix4()
+      .multiplyMatrices(this.object.matrixWorld, this.basePart.pose)
+      .invert();
+    this.object.updateMatrixWorld(true);
+    for (const mesh of this.visuals()) {
+      mesh.geometry.computeBoundingBox();
+      const { boundingBox } = mesh.geometry;
+      if (boundingBox !== null) {
+        const inBase = new Matrix4().multiplyMatrices(toBase, mesh.matrixWorld);
+        box.union(boundingBox.clone().applyMatrix4(inBase));
+      }
+    }
+    return box.isEmpty() ? null : box;
+  }
+
+  /** How far each link is from its parent, m. */
+  get linkLengths(): number[] {
+    return this.parts.flatMap(({ joint }) => (joint === null ? [] : [joint.position.length()]));
+  }
+
   /** The radius of a wheel about its joint's axis, m; 0 if nothing of it is drawn. */
   wheelRadius(joint: string): number {
     const wheel = this.object.joints[joint];
@@ -151,7 +175,15 @@ export class RobotView {
   }
 
   showCollisions(shown: boolean): void {
-    this.colliders.forEach((each) => (each.visible = shown));
+    this.areCollisionsShown = shown;
+    this.revealColliders();
+  }
+
+  /** Those of the chosen link are shown, whatever else is. */
+  private revealColliders(): void {
+    for (const each of this.colliders) {
+      each.visible = this.areCollisionsShown || this.linkOf(each) === this.chosen;
+    }
   }
 
   /** Light up a link; null: none. */
@@ -159,6 +191,7 @@ export class RobotView {
     this.chosen = link;
     const object = link === null ? undefined : this.object.links[link];
     this.highlight.set(object ? meshesOf(object, false) : [], colour);
+    this.revealColliders();
   }
 
   setPalette(palette: Palette): void {
@@ -191,7 +224,7 @@ export class RobotView {
           this.dress();
           this.events.changed();
         },
-        (error: Error) => this.report(error.message),
+        (error: unknown) => this.report(String(error instanceof Error ? error.message : error)),
       );
     };
     const xml = readUrdf(urdf, files, (name) =>

@@ -6,49 +6,66 @@
  * Nothing is drawn but what changed: messages and states are taken over at once, and drawn once in
  * the next frame, however many came. All methods are cheap; none waits.
  */
-import type { Layout, Model, SensorInfo, World } from '../protocol';
+import { Matrix4, Plane, Vector3 } from 'three';
+import type { Place, Point } from '../navigation/gesture';
+import type { Tool } from '../navigation/tool';
+import type { GoalStatus, Layout, Model, SensorInfo, Vector, World } from '../protocol';
 import type { Sample } from '../samples';
+import type { Footprint } from '../spawn/free_place';
 import type { State } from '../state';
-import { labelsOf } from './axes';
 import { CameraRig } from './camera';
+import { Grip, type Grasp, type Hands } from './grip';
 import { Labels } from './labels';
+import type { FramedPlace, NavigationNumbers } from './navigation';
 import { Painter } from './painter';
 import { Picking, type Picked } from './picking';
+import { Placing, type MarkedPlace } from './placing';
 import { Picture, type SceneOptions } from './picture';
 import type { RobotView } from './robot';
+import type { SceneRobot } from './robot_marks';
 import type { SensorNumbers } from './sensors';
 import { PALETTES, type Theme } from './theme';
+import { massOf } from './urdf';
 import { isSoftwareDrawn } from './webgl';
 
 export type { SceneOptions } from './picture';
-export { ODOMETRY_COLOUR, TRUTH_COLOUR } from './theme';
 export { NoWebGL } from './webgl';
 
 export class Scene {
-  /** A link was clicked; null: nothing of this robot is chosen any more. */
-  onSelect: (robot: string, link: string | null) => void = () => {};
+  /** A frame of a robot was clicked; null: what is no robot's. */
+  onSelect: (picked: { robot: string; frame: string } | null) => void = () => {};
   /** Something cannot be drawn: one line for the person before the page. */
   onProblem: (text: string) => void = () => {};
+  /** What drags with Ctrl and Shift do; null: nothing. */
+  hands: Hands | null = null;
   private readonly picture: Picture;
+  private readonly picking: Picking;
+  private readonly grip: Grip;
   private readonly labels: Labels;
   private readonly painter: Painter;
   private readonly rig: CameraRig;
+  private readonly placing: Placing;
   private palette = PALETTES.light;
   private followed: string | null = null;
-  private picked: Picked | null = null;
+  private expected: string | null = null; // a robot that is to be in view as soon as it is there
   private isStale = true; // something other than the camera changed
   private framed: string | null = null; // the fixed frame in which the camera was pointed
 
   /** Throws {@link NoWebGL} where there is no WebGL 2. */
-  constructor(canvas: HTMLCanvasElement) {
+  constructor(readonly canvas: HTMLCanvasElement) {
     const isSoftware = isSoftwareDrawn();
-    this.picture = new Picture(isSoftware);
+    this.picture = new Picture(isSoftware, () => this.invalidate(), (text) => this.onProblem(text));
     this.labels = new Labels(canvas);
     this.painter = new Painter(canvas, isSoftware, this.step, this.onResize);
     this.rig = new CameraRig(canvas, this.painter.dirty, () => this.resetView());
-    const views = (): Iterable<[string, RobotView]> => this.picture.views();
+    const views = (): Iterable<[string, RobotView]> => this.picture.robots.views();
     // It listens for as long as there is a canvas.
-    new Picking(canvas, this.rig.camera, views, this.onPick);
+    this.placing = new Placing(canvas, (x, y) => this.groundAt(x, y));
+    this.picture.scene.add(this.placing.mark.object);
+    this.placing.show(null);
+    this.picking = new Picking(canvas, this.rig.camera, views, this.onPick, this.placing);
+    this.grip = new Grip(canvas, this.rig.camera, this.grasp(), () => this.hands);
+    this.picture.overlay.add(this.grip.object);
     this.setTheme('light');
     this.resize();
   }
@@ -71,9 +88,6 @@ export class Scene {
     this.picture.removeRobot(robot);
     if (this.followed === robot) {
       this.follow(null);
-    }
-    if (this.picked?.robot === robot) {
-      this.picked = null;
     }
     this.invalidate();
   }
@@ -103,7 +117,13 @@ export class Scene {
   /** Draw no other sensors than these topics. */
   retainSensors(topics: ReadonlySet<string>): void {
     this.picture.sensors.retain(topics);
+    this.picture.navigation.retain(topics);
     this.invalidate();
+  }
+
+  /** What is drawn of maps, paths and goals. */
+  navigationNumbers(): NavigationNumbers {
+    return this.picture.navigation.numbers();
   }
 
   /** What is drawn of each sensor. */
@@ -117,9 +137,9 @@ export class Scene {
     this.invalidate();
   }
 
-  /** The frames to choose from. */
-  frames(): string[] {
-    return this.picture.frames();
+  /** Where odometry and truth agreed: the pose in world of the root of each TF tree. */
+  get anchors(): Map<string, Matrix4> {
+    return this.picture.anchors;
   }
 
   show(options: Partial<SceneOptions>): void {
@@ -141,24 +161,55 @@ export class Scene {
     }
   }
 
+  /** Have a robot in view, now or as soon as it comes, and what is in view with it. */
+  bringIntoView(robot: string): void {
+    this.expected = robot;
+    this.invalidate();
+  }
+
+  /** The robots that stand in `world`, from above. */
+  footprints(): Footprint[] {
+    return this.picture.robots.footprints();
+  }
+
+  /** The radius of the circle that a robot takes on the ground, m; null: it was never drawn. */
+  radiusOf(robot: string): number | null {
+    return this.picture.robots.radiusOf(robot);
+  }
+
+  /** Mark a place on the ground; null: none. */
+  markPlace(place: MarkedPlace | null): void {
+    this.placing.show(place);
+    this.painter.dirty();
+  }
+
+  /** Have a place pointed at: `pointed` is told of each, `chosen` that one was clicked. */
+  askForPlace(pointed: ((x: number, y: number) => void) | null, chosen: () => void = () => {}): void {
+    this.placing.ask(pointed);
+    this.placing.onChosen = chosen;
+  }
+
   /** Bring the robots into view: the one that is followed, or all that are near one another. */
   resetView(): void {
     const pose = this.picture.poseOf(this.followed);
-    const view = this.picture.views().get(this.followed ?? '');
+    const view = this.picture.robots.views().get(this.followed ?? '');
     if (pose !== null && view !== undefined) {
       this.rig.startFollowing(pose, view.bounds());
     } else {
-      this.rig.frame(this.picture.bounds());
+      this.rig.frame(this.picture.robots.bounds());
     }
     this.painter.dirty();
   }
 
-  /** Light up a link, as a click does; null: none. */
-  select(robot: string, link: string | null): void {
-    this.picked = { robot, link };
-    for (const [id, view] of this.picture.views()) {
-      view.choose(id === robot ? link : null, this.palette.highlight);
-    }
+  /** Light up a frame of TF, and the link of a robot that it is; null: none. */
+  select(robot: string | null, frame: string | null): void {
+    this.picture.select(robot, frame);
+    this.invalidate();
+  }
+
+  /** Mark robots by names and colours where there are several, and their fronts. */
+  setRobots(robots: readonly SceneRobot[]): void {
+    this.picture.setRobots(robots);
     this.invalidate();
   }
 
@@ -171,6 +222,7 @@ export class Scene {
   setTheme(theme: Theme): void {
     this.palette = PALETTES[theme];
     this.picture.setPalette(this.palette);
+    this.grip.setPalette(this.palette);
     this.invalidate();
   }
 
@@ -186,13 +238,69 @@ export class Scene {
 
   /** The extent of the robots that are near the first one, m: least x, y, z, then greatest. */
   extent(): number[] {
-    const { min, max } = this.picture.bounds();
+    const { min, max } = this.picture.robots.bounds();
     return [...min.toArray(), ...max.toArray()];
   }
 
   /** How many points the trails have, by robot: of the truth's, and of the odometry's. */
   trailSizes(): Record<string, [truth: number, odometry: number]> {
-    return this.picture.trailSizes();
+    return this.picture.robots.trailSizes();
+  }
+
+  /** The point of the ground, m in `world`, under a point of the page; null: there is none. */
+  groundAt(clientX: number, clientY: number): Vector | null {
+    const world = this.picture.worldPose;
+    if (world === null) {
+      return null;
+    }
+    const ray = this.picking.rayAt(clientX, clientY).applyMatrix4(world.clone().invert());
+    const ground = new Plane(new Vector3(0, 0, 1));
+    return ray.intersectPlane(ground, new Vector3())?.toArray() ?? null;
+  }
+
+  /** The point of the ground of a frame, such as a map, under a point of the page; null: none. */
+  groundIn(frame: string, clientX: number, clientY: number): Point | null {
+    const pose = this.picture.locateFrame(frame, '');
+    if (pose === null) {
+      return null;
+    }
+    const ray = this.picking.rayAt(clientX, clientY).clone().applyMatrix4(pose.clone().invert());
+    return ray.intersectPlane(new Plane(new Vector3(0, 0, 1)), new Vector3());
+  }
+
+  /** Where a robot is in a frame, from above; null: not known. */
+  placeIn(frame: string, robot: string): Place | null {
+    const [pose, base] = [this.picture.locateFrame(frame, ''), this.picture.poseOf(robot)];
+    if (pose === null || base === null) {
+      return null;
+    }
+    const { elements } = new Matrix4().copy(pose).invert().multiply(base);
+    return { x: elements[12], y: elements[13], yaw: Math.atan2(elements[1], elements[0]) };
+  }
+
+  /** Mark goals. */
+  showGoals(goals: readonly GoalStatus[]): void {
+    this.picture.navigation.setGoals(goals);
+    this.invalidate();
+  }
+
+  /** Mark what a tool would give; null: nothing. */
+  showDraft(tool: Tool, place: FramedPlace | null): void {
+    this.picture.navigation.setDraft(tool, place);
+    this.invalidate();
+  }
+
+  private grasp(): Grasp {
+    const { picture, picking } = this;
+    return {
+      hit: (x, y) => picking.at(x, y),
+      ray: (x, y) => picking.rayAt(x, y),
+      link: (robot, link) => picture.robots.views().get(robot)?.object.links[link] ?? null,
+      base: (robot) => picture.poseOf(robot),
+      world: () => picture.worldPose,
+      mass: (robot) => massOf(picture.robots.views().get(robot)?.model.urdf ?? ''),
+      changed: this.painter.dirty,
+    };
   }
 
   private invalidate(): void {
@@ -200,9 +308,9 @@ export class Scene {
     this.painter.dirty();
   }
 
-  private readonly onResize = (width: number, height: number, ratio: number): void => {
+  private readonly onResize = (width: number, height: number): void => {
     this.rig.resize(width / Math.max(1, height));
-    this.labels.resize(ratio);
+    this.labels.resize();
   };
 
   private onMesh(robot: string): void {
@@ -214,11 +322,9 @@ export class Scene {
   }
 
   private readonly onPick = (what: Picked | null): void => {
-    const { robot, link } = what ?? { robot: this.picked?.robot ?? '', link: null };
-    if (robot !== '') {
-      this.select(robot, link);
-      this.onSelect(robot, link);
-    }
+    const isLink = what !== null && what.link !== null;
+    const frame = isLink ? this.picture.robots.frameOf(what.robot, what.link as string) : null;
+    this.onSelect(frame === null || what === null ? null : { robot: what.robot, frame });
   };
 
   /** Draw a frame; `dt` s after the last one. */
@@ -227,20 +333,38 @@ export class Scene {
     if (this.isStale) {
       this.isStale = false;
       picture.place();
+      this.placing.world = picture.worldPose;
+      this.placing.settle();
       this.pointCamera();
+      this.include();
     }
     const goesOn = rig.update(dt, picture.poseOf(this.followed));
-    picture.surroundings.follow(rig.camera.position, rig.target, rig.distance, picture.size);
+    picture.surroundings.setPixels(this.painter.pixels);
+    picture.surroundings.follow(rig.camera.position, rig.target, rig.distance, picture.robots.largest);
+    picture.reveal(rig.camera.position, this.followed);
+    this.grip.draw();
     this.painter.paint(picture.scene, picture.overlay, rig.camera);
-    const { frames, frameNames } = picture.options;
-    const labels = frames && frameNames ? labelsOf(picture.placed, picture.fixedFrame) : [];
-    this.labels.draw(labels, rig.camera, this.palette);
+    this.labels.draw(picture.labels(), rig.camera, this.palette);
     return goesOn;
   };
 
+  /** Step back until a robot that was waited for is in view. */
+  private include(): void {
+    const bounds = this.expected === null ? null : this.picture.robots.boundsOf(this.expected);
+    if (bounds === null) {
+      return; // it has not come yet
+    }
+    this.expected = null;
+    if (this.followed === null) {
+      this.rig.frame(this.picture.robots.bounds().union(bounds));
+    } else {
+      this.rig.include(bounds);
+    }
+  }
+
   /** Point the camera at the robots when the first one comes, and in another fixed frame. */
   private pointCamera(): void {
-    const isAnyThere = [...this.picture.views().values()].some(({ object }) => object.visible);
+    const isAnyThere = [...this.picture.robots.views().values()].some(({ object }) => object.visible);
     if (isAnyThere && this.framed !== this.picture.fixedFrame) {
       this.framed = this.picture.fixedFrame;
       this.resetView();

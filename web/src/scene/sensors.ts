@@ -4,6 +4,7 @@
 import { Color, Group, Matrix4, Vector3 } from 'three';
 import { PLACE_FLOATS, type Contacts, type Distance, type Scan, type SensorInfo } from '../protocol';
 import { pointsOf, type Sample } from '../samples';
+import { vectorAt } from '../state';
 import { rainbow } from './gradient';
 import { DynamicPoints } from './points';
 import { Segments } from './segments';
@@ -171,7 +172,8 @@ export class SensorLayer {
   /** The cone that the sensor sees, as far as it sees, from above. */
   private drawDistance({ head, floats }: Sample<Distance>, pose: Matrix4): void {
     const farthest = Math.min(head.max_range ?? MOST_DRAWN, MOST_DRAWN);
-    const measured = floats[0] === -Infinity ? (head.min_range ?? 0) : floats[0];
+    const distance = floats[0] ?? Number.NaN;
+    const measured = distance === -Infinity ? (head.min_range ?? 0) : distance;
     const range = Math.min(measured, farthest);
     if (!(range >= 0)) {
       return; // it is not known
@@ -220,7 +222,7 @@ export function fillScan(
   const high = head.range_max ?? Infinity;
   points.reserve(floats.length);
   const { positions, colours } = points;
-  const [r, g, b] = [colour.r, colour.g, colour.b].map((part) => Math.round(255 * part));
+  const bytes = [colour.r, colour.g, colour.b].map((part) => Math.round(255 * part));
   let count = 0;
   floats.forEach((range, ray) => {
     if (range >= low && range <= high && range < Infinity) {
@@ -228,9 +230,7 @@ export function fillScan(
       positions[at] = range * Math.cos(begin + ray * step);
       positions[at + 1] = range * Math.sin(begin + ray * step);
       positions[at + 2] = 0;
-      colours[at] = r;
-      colours[at + 1] = g;
-      colours[at + 2] = b;
+      colours.set(bytes, at);
       count += 1;
     }
   });
@@ -253,7 +253,7 @@ function fillCloud(points: DynamicPoints, sample: Sample, pose: Matrix4): number
 function heights(positions: Float32Array, { elements: m }: Matrix4): Float32Array {
   const found = new Float32Array(positions.length / 3);
   for (let at = 0; at < found.length; at += 1) {
-    const [x, y, z] = [positions[3 * at], positions[3 * at + 1], positions[3 * at + 2]];
+    const [x, y, z] = vectorAt(positions, at);
     found[at] = m[2] * x + m[6] * y + m[10] * z + m[14];
   }
   return found;
@@ -276,12 +276,11 @@ function paint(colours: Uint8Array, values: Float32Array): void {
 
 /** Of sRGB bytes those of linear light, as three.js takes colours of points. */
 function linear(rgb: Uint8Array): Uint8Array {
-  return rgb.map((value) => LINEAR[value]);
+  return rgb.map((value) => LINEAR[value]!);
 }
 
 const LINEAR = Uint8Array.from({ length: 256 }, (_, value) => {
-  const [red] = new Color().setRGB(value / 255, 0, 0, 'srgb').toArray();
-  return Math.round(255 * red);
+  return Math.round(255 * new Color().setRGB(value / 255, 0, 0, 'srgb').r);
 });
 
 function extentOf(points: DynamicPoints | null, count: number, pose: Matrix4): number[] | null {

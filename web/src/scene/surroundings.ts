@@ -24,7 +24,7 @@ import type { Palette } from './theme';
 const FAR = 400; // m, the radius of the sky
 const IDENTITY = new Matrix4();
 const SUN = new Vector3(-0.9, -0.45, 1.5); // towards it
-const SHADOW_PIXELS = { hardware: 2048, software: 256 };
+const SHADOW_PIXELS = { hardware: 2048, software: 512 };
 const WIDEST = 24; // m, half of the side of what shadows fall on
 
 export class Surroundings {
@@ -69,6 +69,11 @@ export class Surroundings {
     this.ground.setSolid(pose !== null);
     this.floor.matrix.copy(pose ?? IDENTITY);
     this.floor.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Pixels of the picture to a CSS pixel. */
+  setPixels(pixels: number): void {
+    this.ground.setPixels(pixels);
   }
 
   showGrid(shown: boolean): void {

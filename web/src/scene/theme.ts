@@ -4,10 +4,6 @@
 
 export type Theme = 'light' | 'dark';
 
-/** What the page's plots and legends share with the scene: one colour a thing, in both themes. */
-export const TRUTH_COLOUR = '#0fa3b1';
-export const ODOMETRY_COLOUR = '#f2811d';
-
 export interface Palette {
   horizon: string; // what far things fade to
   zenith: string;
@@ -18,6 +14,10 @@ export interface Palette {
   edgeOpacity: number;
   partEdge: string; // outlines of a robot's primitives
   partEdgeOpacity: number;
+  truth: string; // of one robot, as in the plots (style/tokens.css)
+  odometry: string;
+  robots: readonly string[]; // of several robots: 3 : 1 or more against the ground
+  robotText: string; // on these
   axes: [string, string, string]; // x, y, z
   tree: string; // from a frame to its parent
   label: string;
@@ -28,6 +28,8 @@ export interface Palette {
   scans: [string, string, string]; // of one lidar after the other
   distance: string; // what a range finder sees
   touch: string; // where shapes touch
+  path: string; // and goals
+  pose: string; // where a robot believes it is
   highlight: string;
   collision: string;
   sun: number; // candela-free units of three.js: pi lights a white surface to white
@@ -46,6 +48,10 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     edgeOpacity: 0.28,
     partEdge: '#ffffff',
     partEdgeOpacity: 0.35,
+    truth: '#066570',
+    odometry: '#c64a06',
+    robots: ['#1c56c4', '#b0246f', '#1a7340', '#8f4a00', '#6a3fc0', '#0a6d7a', '#5f6200', '#4b5a69'],
+    robotText: '#ffffff',
     axes: ['#e03a3a', '#22a047', '#2f6fed'],
     tree: '#8a6d1f',
     label: '#1d2733',
@@ -56,6 +62,8 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     scans: ['#e11d2e', '#7a3ff2', '#0b7a3b'],
     distance: '#7a3ff2',
     touch: '#e11d2e',
+    path: '#0f7f3f',
+    pose: '#1c56c4',
     highlight: '#ff9d00',
     collision: '#d97706',
     sun: 2.3,
@@ -72,6 +80,10 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     edgeOpacity: 0.22,
     partEdge: '#ffffff',
     partEdgeOpacity: 0.4,
+    truth: '#35d0de',
+    odometry: '#ee7f22',
+    robots: ['#6b9dff', '#ff6aa8', '#46cf82', '#f0a83c', '#b295ff', '#3fc5d3', '#d0cc4a', '#a9b7c6'],
+    robotText: '#10151b',
     axes: ['#ff5c5c', '#46cf6f', '#6b9dff'],
     tree: '#d9b650',
     label: '#e8eef5',
@@ -82,6 +94,8 @@ export const PALETTES: Readonly<Record<Theme, Palette>> = {
     scans: ['#ff4d5e', '#b48cff', '#4be08a'],
     distance: '#b48cff',
     touch: '#ff4d5e',
+    path: '#4be08a',
+    pose: '#6b9dff',
     highlight: '#ffb02e',
     collision: '#f59e0b',
     sun: 2.0,

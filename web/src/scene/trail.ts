@@ -10,6 +10,7 @@
  *
  * Both parts lie behind one another in `points`, coarse before fine, as a line is drawn.
  */
+import { vectorAt } from '../state';
 
 const AXES = 3;
 
@@ -26,7 +27,8 @@ export class Trail {
   firstChanged = 0;
   private readonly coarseCapacity: number;
   private readonly fineCapacity: number;
-  private readonly fineSpacing: number;
+  /** m between two points of the fine part. */
+  readonly spacing: number;
   private coarseSpacing: number;
   private coarse = 0;
   private fine = 0;
@@ -34,7 +36,7 @@ export class Trail {
   constructor({ coarse = 4096, fine = 4096, spacing = 0.02 }: TrailOptions = {}) {
     this.coarseCapacity = coarse;
     this.fineCapacity = fine;
-    this.fineSpacing = spacing;
+    this.spacing = spacing;
     this.coarseSpacing = spacing;
     this.points = new Float32Array(AXES * (coarse + fine));
   }
@@ -47,7 +49,7 @@ export class Trail {
   /** Begin anew. */
   clear(): void {
     this.coarse = this.fine = this.firstChanged = 0;
-    this.coarseSpacing = this.fineSpacing;
+    this.coarseSpacing = this.spacing;
   }
 
   /** Say that all changes have been taken over. */
@@ -57,7 +59,7 @@ export class Trail {
 
   /** Go on to a point, m. Returns whether it was kept, and not too near to the last one. */
   add(x: number, y: number, z: number): boolean {
-    if (this.count > 0 && this.distanceTo(this.count - 1, x, y, z) < this.fineSpacing) {
+    if (this.count > 0 && this.distanceTo(this.count - 1, x, y, z) < this.spacing) {
       return false;
     }
     if (this.fine === this.fineCapacity) {
@@ -74,8 +76,7 @@ export class Trail {
     const half = begin + (this.fine >> 1);
     const end = begin + this.fine;
     for (let i = begin; i < half; i++) {
-      const [x, y, z] = this.points.subarray(AXES * i, AXES * i + AXES);
-      this.addCoarse(x, y, z);
+      this.addCoarse(...vectorAt(this.points, i));
     }
     this.points.copyWithin(AXES * this.coarse, AXES * half, AXES * end);
     this.firstChanged = Math.min(this.firstChanged, this.coarse);
@@ -109,7 +110,7 @@ export class Trail {
   }
 
   private distanceTo(index: number, x: number, y: number, z: number): number {
-    const [px, py, pz] = this.points.subarray(AXES * index, AXES * index + AXES);
+    const [px, py, pz] = vectorAt(this.points, index);
     return Math.hypot(x - px, y - py, z - pz);
   }
 }

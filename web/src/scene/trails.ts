@@ -1,60 +1,39 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** The trails of a robot: ground truth and odometry. */
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Color,
-  DynamicDrawUsage,
-  Group,
-  InstancedInterleavedBuffer,
-  InterleavedBufferAttribute,
-  Line,
-  LineBasicMaterial,
-  Matrix4,
-  Sphere,
-} from 'three';
-import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
-import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
-import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
-import type { RobotState } from '../state';
-import { ODOMETRY_COLOUR, TRUTH_COLOUR } from './theme';
+import { Group, Matrix4 } from 'three';
+import { vectorAt, type RobotState } from '../state';
+import { Ribbon } from './ribbon';
+import { PALETTES } from './theme';
 import { Trail } from './trail';
 import { readPose } from './tree';
 
 const WIDTH = 3; // CSS pixels
 const SPARSE = { coarse: 1024, fine: 1024, spacing: 0.04 }; // where the processor draws
+const DASH = 0.4; // m, from one dash of the odometry to the next
 const LIFT = 0.004; // m, so that a trail on the ground is seen
-const BIAS = -800; // of depth, so that the ground does not take half of a flat line's width
 const JUMP = 0.5; // m at once, beyond what speed explains: it was put there
 const FASTEST = 10; // m/s
 
 /** A trail, drawn. */
 class TrailLine {
   readonly trail: Trail;
-  readonly object: LineSegments2 | Line;
-  private readonly buffer: InstancedInterleavedBuffer | BufferAttribute;
+  private readonly ribbon: Ribbon;
 
-  /**
-   * `lift` in m. Where the processor draws, the line is one pixel wide, of fewer points: a wide
-   * one of 13,000 pieces cost 0.5 s of its time a frame.
-   */
-  constructor(colour: string, private readonly lift: number, isSoftware: boolean) {
+  /** `lift` in m. Where the processor draws there are fewer points. */
+  constructor(private readonly lift: number, isDashed: boolean, isSoftware: boolean) {
     this.trail = new Trail(isSoftware ? SPARSE : {});
-    const { points } = this.trail;
-    this.buffer = isSoftware
-      ? new BufferAttribute(points, 3)
-      : new InstancedInterleavedBuffer(points, 3, 1);
-    this.buffer.setUsage(DynamicDrawUsage);
-    this.buffer.onUpload(() => this.trail.markDrawn());
-    this.object =
-      this.buffer instanceof BufferAttribute
-        ? thinLine(this.buffer, colour)
-        : wideLine(this.buffer, colour);
-    this.object.geometry.boundingSphere = new Sphere();
-    this.object.frustumCulled = false; // its extent is not followed
-    this.object.raycast = () => {};
+    const dash = isDashed ? Math.round(DASH / this.trail.spacing) : 0;
+    this.ribbon = new Ribbon(this.trail.points, WIDTH, dash, () => this.trail.markDrawn());
     this.draw();
+  }
+
+  get object(): Ribbon['object'] {
+    return this.ribbon.object;
+  }
+
+  setColour(colour: string): void {
+    this.ribbon.setColour(colour);
   }
 
   add(x: number, y: number, z: number): void {
@@ -69,43 +48,17 @@ class TrailLine {
   }
 
   dispose(): void {
-    this.object.geometry.dispose();
-    [this.object.material].flat().forEach((material) => material.dispose());
+    this.ribbon.dispose();
   }
 
   private draw(): void {
-    const { count, firstChanged } = this.trail;
-    const { geometry } = this.object;
-    if (geometry instanceof LineSegmentsGeometry) {
-      geometry.instanceCount = Math.max(0, count - 1);
-    } else {
-      geometry.setDrawRange(0, count);
-    }
-    this.object.visible = count > 1;
-    this.buffer.clearUpdateRanges();
-    this.buffer.addUpdateRange(3 * firstChanged, 3 * (count - firstChanged));
-    this.buffer.needsUpdate = true;
+    this.ribbon.draw(this.trail.count, this.trail.firstChanged);
   }
 }
 
-function wideLine(buffer: InstancedInterleavedBuffer, colour: string): LineSegments2 {
-  // Each point is the end of one segment and the start of the next: the two overlap.
-  const geometry = new LineSegmentsGeometry();
-  geometry.setAttribute('instanceStart', new InterleavedBufferAttribute(buffer, 3, 0));
-  geometry.setAttribute('instanceEnd', new InterleavedBufferAttribute(buffer, 3, 3));
-  const material = new LineMaterial({ color: new Color(colour).getHex(), linewidth: WIDTH });
-  material.polygonOffset = true;
-  material.polygonOffsetUnits = BIAS;
-  return new LineSegments2(geometry, material);
-}
-
-function thinLine(points: BufferAttribute, colour: string): Line {
-  const geometry = new BufferGeometry().setAttribute('position', points);
-  return new Line(geometry, new LineBasicMaterial({ color: colour }));
-}
-
 /**
- * Both trails of one robot.
+ * Both trails of one robot: the truth's whole, the odometry's dashed, so that each is seen where they
+ * lie on one another, and without colours, too.
  *
  * Odometry begins anywhere; its trail is anchored where the two agreed first, so that what lies
  * between them is the drift: T_world_odom = T_world_base · T_odom_base⁻¹.
@@ -119,8 +72,9 @@ export class Trails {
   private last: { x: number; y: number; z: number; time: number } | null = null;
 
   constructor(isSoftware: boolean) {
-    this.truth = new TrailLine(TRUTH_COLOUR, LIFT, isSoftware);
-    this.odometry = new TrailLine(ODOMETRY_COLOUR, 2 * LIFT, isSoftware);
+    this.truth = new TrailLine(LIFT, false, isSoftware);
+    this.odometry = new TrailLine(2 * LIFT, true, isSoftware);
+    this.setColours(PALETTES.light.truth, PALETTES.light.odometry);
     this.object.matrixAutoUpdate = false;
     this.odometry.object.matrixAutoUpdate = false;
     this.object.add(this.truth.object, this.odometry.object);
@@ -143,15 +97,19 @@ export class Trails {
       this.odometry.object.matrix.copy(this.anchor);
     }
     if (truth !== null) {
-      const [x, y, z] = state.truth;
+      const [x, y, z] = vectorAt(state.truth, 0);
       this.truth.add(x, y, z);
       this.last = { x, y, z, time };
     }
     if (odometry !== null) {
-      const [x, y, z] = state.odometry;
-      this.odometry.add(x, y, z);
+      this.odometry.add(...vectorAt(state.odometry, 0));
     }
     return hasJumped;
+  }
+
+  setColours(truth: string, odometry: string): void {
+    this.truth.setColour(truth);
+    this.odometry.setColour(odometry);
   }
 
   /** Where the odometry's frame is in `world`; null: not known, or there is no truth. */
@@ -186,10 +144,11 @@ export class Trails {
     this.odometry.dispose();
   }
 
-  private hasJumped([x, y, z]: Float32Array, time: number): boolean {
+  private hasJumped(truth: Float32Array, time: number): boolean {
     if (this.last === null) {
       return false;
     }
+    const [x, y, z] = vectorAt(truth, 0);
     const distance = Math.hypot(x - this.last.x, y - this.last.y, z - this.last.z);
     return distance > JUMP + FASTEST * Math.abs(time - this.last.time);
   }

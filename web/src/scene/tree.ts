@@ -66,6 +66,15 @@ export class FrameTree {
     return root;
   }
 
+  /** The frame below the root on the way to a frame; the frame itself where it is a root. */
+  belowRoot(name: string): string {
+    let below = name;
+    for (let parent = this.parentOf(name); parent !== null; parent = this.parentOf(parent)) {
+      below = this.parentOf(parent) === null ? below : parent;
+    }
+    return below;
+  }
+
   /** The pose of a frame in `rootOf(name)`; null where one on the way is not known. */
   inRoot(name: string): Matrix4 | null {
     const pose = new Matrix4();

@@ -47,3 +47,10 @@ function writeMaterialsOut(xml: Document): void {
     }
   }
 }
+
+/** The mass of a robot, kg. */
+export function massOf(urdf: string): number {
+  const xml = new DOMParser().parseFromString(urdf, 'text/xml');
+  const masses = [...xml.querySelectorAll('robot > link > inertial > mass')];
+  return masses.reduce((sum, one) => sum + (Number(one.getAttribute('value')) || 0), 0);
+}

@@ -15,14 +15,16 @@ import {
   Mesh,
   MeshLambertMaterial,
   PlaneGeometry,
+  Raycaster,
   SphereGeometry,
   SRGBColorSpace,
 } from 'three';
-import type { Matrix4 } from 'three';
+import type { Matrix4, Object3D, Vector3 } from 'three';
 import type { Shape, World } from '../protocol';
 import { disposeTree } from './looks';
 import type { Palette } from './theme';
 
+const GLASS = 0.22; // opacity of what hides the robot
 const SHARPEST = 25; // degrees between two faces that show an edge
 const EDGED: ReadonlySet<Shape['kind']> = new Set(['box', 'cylinder', 'triangles']);
 
@@ -32,6 +34,8 @@ export class WorldView {
   /** Whether there is a ground without end at z = 0; it is drawn by the scene. */
   hasGround = false;
   private readonly edges = new LineBasicMaterial({ transparent: true });
+  private readonly caster = new Raycaster();
+  private readonly seenThrough = new Set<ShapeMesh>();
 
   /** `isShaded`: it casts and takes shadows. */
   constructor(private readonly isShaded: boolean) {
@@ -42,6 +46,7 @@ export class WorldView {
   /** Draw a world in place of the one that was. */
   set(world: World): void {
     disposeTree(this.object);
+    this.seenThrough.clear();
     this.object.clear();
     this.hasGround = world.shapes.some(isGround);
     for (const shape of world.shapes.filter((each) => !isGround(each))) {
@@ -63,7 +68,33 @@ export class WorldView {
     this.edges.opacity = palette.edgeOpacity;
   }
 
-  private draw(shape: Shape): Mesh {
+  /**
+   * Let one look through the shapes that hide points from the eye, and through no others; m, in the
+   * frame of the scene.
+   */
+  reveal(eye: Vector3, points: readonly Vector3[]): void {
+    const hiding = new Set<Object3D>();
+    for (const point of points) {
+      this.caster.far = eye.distanceTo(point);
+      this.caster.set(eye, point.clone().sub(eye).normalize());
+      const hits = this.caster.intersectObjects(this.object.children, false);
+      hits.forEach(({ object }) => hiding.add(object));
+    }
+    for (const mesh of this.seenThrough) {
+      if (!hiding.has(mesh)) {
+        setSeenThrough(mesh, false);
+        this.seenThrough.delete(mesh);
+      }
+    }
+    for (const mesh of hiding) {
+      if (!this.seenThrough.has(mesh as ShapeMesh)) {
+        setSeenThrough(mesh as ShapeMesh, true);
+        this.seenThrough.add(mesh as ShapeMesh);
+      }
+    }
+  }
+
+  private draw(shape: Shape): ShapeMesh {
     const [r, g, b, a] = shape.colour;
     const mesh = new Mesh(
       geometryOf(shape),
@@ -81,10 +112,24 @@ export class WorldView {
     mesh.castShadow = this.isShaded && a > 0.5 && shape.kind !== 'plane';
     mesh.receiveShadow = this.isShaded;
     if (EDGED.has(shape.kind)) {
-      mesh.add(new LineSegments(new EdgesGeometry(mesh.geometry, SHARPEST), this.edges));
+      const edges = new LineSegments(new EdgesGeometry(mesh.geometry, SHARPEST), this.edges);
+      edges.raycast = () => {};
+      mesh.add(edges);
     }
     return mesh;
   }
+}
+
+type ShapeMesh = Mesh<BufferGeometry, MeshLambertMaterial>;
+
+/** Draw a shape as if of glass, or as it is. */
+function setSeenThrough({ material, userData }: ShapeMesh, isSeenThrough: boolean): void {
+  userData.opacity ??= material.opacity;
+  const own = userData.opacity as number;
+  material.opacity = isSeenThrough ? Math.min(own, GLASS) : own;
+  material.transparent = material.opacity < 1;
+  material.depthWrite = !material.transparent;
+  material.needsUpdate = true;
 }
 
 /** A plane without end, level, at height 0. */

@@ -1,22 +1,18 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** A canvas with the latest picture of a camera: one is decoded at a time, the newest waits. */
-import { h } from '../dom';
 import type { Picture } from '../protocol';
 import type { Sample } from '../samples';
 
 export class PictureCanvas {
-  readonly element = h('canvas', { class: 'camera', role: 'img' });
   /** How many pictures were drawn, and how many could not be. */
   readonly counts = { drawn: 0, bad: 0 };
   private isBusy = false;
   private next: Sample<Picture> | null = null;
   private last: Sample<Picture> | null = null;
 
-  constructor(topic: string) {
-    this.element.setAttribute('aria-label', `Picture of ${topic}`);
-    this.element.hidden = true;
-  }
+  /** `element`: hidden until there is a picture. */
+  constructor(private readonly element: HTMLCanvasElement) {}
 
   /** Draw a picture, unless it is there already. */
   show(sample: Sample<Picture>): void {

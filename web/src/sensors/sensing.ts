@@ -1,41 +1,54 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** Which sensors the page shows, and the latest sample of each. */
+import { signal } from '@preact/signals';
 import type { SensorInfo } from '../protocol';
 import { recall, remember } from '../remember';
 import type { Sample } from '../samples';
 import type { Store } from '../store';
 
-/** Shown until the user says otherwise: a scan is small, and what a mobile robot is about. */
-const SHOWN_AT_FIRST: ReadonlySet<SensorInfo['kind']> = new Set(['scan']);
+/**
+ * Shown until the user says otherwise: a scan is small, and what a mobile robot is about; of maps and
+ * paths those that it is driven by.
+ */
+function isShownAtFirst({ topic, kind }: SensorInfo): boolean {
+  return kind === 'scan' || (kind === 'map' && topic.endsWith('/map')) || (kind === 'path' && topic.endsWith('/plan'));
+}
 
 export class Sensing {
   /** The latest samples, by topic, of those that are on. */
   readonly latest = new Map<string, Sample>();
+  private readonly switches = signal(0); // how often one was flipped
   /** What is on, or there is, has changed. */
   onChange: () => void = () => {};
 
   constructor(private readonly store: Store) {
     store.watch(['graph', 'robot'], () => this.settle());
     store.watch(['reset'], () => {
-      this.latest.clear(); // of a time that has not come yet
+      for (const [topic, { head }] of [...this.latest]) {
+        if (head.type !== 'map') { // others are of a time that has not come yet
+          this.latest.delete(topic);
+        }
+      }
       this.onChange();
     });
   }
 
-  /** The sensors of the robot that the panels show. */
+  /** The sensors of the robot that the panels show, and maps that are nobody's own. */
   get here(): readonly SensorInfo[] {
     const { graph, robot } = this.store;
-    return (graph?.sensors ?? []).filter((each) => each.robot === robot?.id);
+    return (graph?.sensors ?? []).filter((each) => each.robot === robot?.id || each.robot === '');
   }
 
-  isOn({ topic, kind }: SensorInfo): boolean {
-    const kept = recall(`sensor.${topic}`);
-    return kept === null ? SHOWN_AT_FIRST.has(kind) : kept === 'yes';
+  isOn(info: SensorInfo): boolean {
+    void this.switches.value; // who shows it follows
+    const kept = recall(`sensor.${info.topic}`);
+    return kept === null ? isShownAtFirst(info) : kept === 'yes';
   }
 
   set(topic: string, on: boolean): void {
     remember(`sensor.${topic}`, on ? 'yes' : 'no');
+    this.switches.value += 1;
     this.settle();
   }
 

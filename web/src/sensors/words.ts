@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What a sample says, in words. */
 import { fixed, UNKNOWN } from '../format';
-import type { Contacts, Picture } from '../protocol';
+import type { Contacts, OccupancyGrid, Picture } from '../protocol';
 import type { Sample } from '../samples';
 
 const OLDEST_CONTACT = 0.5; // s; some publish only while there is a contact
@@ -30,8 +30,14 @@ export function measured({ head, floats }: Sample, now: number): string {
       return distance(floats[0]);
     case 'contacts':
       return contactWords(head, now - head.origin.stamp > OLDEST_CONTACT);
+    case 'map':
+      return mapWords(head);
+    case 'path':
+      return head.count === 0 ? 'no path' : `${head.count} poses · ${fixed(head.length, 1)} m`;
     case 'unreadable':
       return head.text;
+    default:
+      return ''; // of another channel: no sensor's
   }
 }
 
@@ -48,6 +54,11 @@ function nearest(ranges: Float32Array, low: number | null, high: number | null):
 function pictureWords({ width, height, encoding, low, high }: Picture): string {
   const size = `${width} × ${height} ${encoding}`;
   return low === null || high === null ? size : `${size} · ${fixed(low, 2)} to ${fixed(high, 2)} m`;
+}
+
+function mapWords({ width, height, resolution }: OccupancyGrid): string {
+  const size = `${fixed(width * resolution, 1)} × ${fixed(height * resolution, 1)} m`;
+  return `${width} × ${height} cells of ${fixed(resolution, 3)} m · ${size}`;
 }
 
 function distance(range: number | undefined): string {

@@ -1,0 +1,108 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Messages to pages about the ROS graph itself, and what requests about it are answered: topics,
+transforms, the log, parameters, and the fields of messages.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """A publisher of a topic, or a subscription."""
+
+    node: str  #: "/robot1/controller_manager", or "?": not known
+    qos: str  #: "reliable, volatile"
+
+
+@dataclass(frozen=True, slots=True)
+class TopicInfo:
+    """A topic of the ROS graph."""
+
+    name: str
+    kinds: tuple[str, ...]  #: types of its messages; usually one
+    publishers: tuple[Endpoint, ...]
+    subscriptions: tuple[Endpoint, ...]
+    rate: float | None  #: messages per second, of one publisher, while ``rates`` are watched
+
+
+@dataclass(frozen=True, slots=True)
+class Topics:
+    """All nodes and topics, to pages that watch ``topics``, and on every change."""
+
+    type: ClassVar[str] = 'topics'
+    nodes: tuple[str, ...]
+    topics: tuple[TopicInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FrameStatus:
+    """A TF frame that is the child of another one."""
+
+    name: str
+    parent: str  #: of the latest transform
+    parents: tuple[str, ...]  #: all that it had in the last seconds: more than one is an error
+    is_static: bool
+    rate: float | None  #: transforms per second
+    age: float | None  #: s since the last one came; of static ones ``None``
+    topic: str  #: by which it comes: "/tf"
+
+
+@dataclass(frozen=True, slots=True)
+class Transforms:
+    """The TF tree, to pages that watch ``transforms``, each half a second."""
+
+    type: ClassVar[str] = 'transforms'
+    frames: tuple[FrameStatus, ...]
+    publishers: Mapping[str, tuple[str, ...]]  #: nodes, by topic
+
+
+@dataclass(frozen=True, slots=True)
+class LogLine:
+    """A message of /rosout."""
+
+    number: int  #: one more for each that the node got
+    stamp: float
+    level: Literal['debug', 'info', 'warning', 'error', 'fatal']
+    node: str  #: as it names itself: "robot1.controller_manager"
+    text: str
+    place: str  #: where in the source: "main (talker.py:23)"
+
+
+@dataclass(frozen=True, slots=True)
+class Log:
+    """New lines of /rosout, to pages that watch ``log``; at first the last warnings and errors."""
+
+    type: ClassVar[str] = 'log'
+    lines: tuple[LogLine, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterInfo:
+    """A parameter of a node: what it answers to ``parameters``."""
+
+    name: str
+    #: "bool", "integer", "double", "string", "byte_array", "bool_array" …, or "not set"
+    kind: str
+    value: Any
+    read_only: bool
+    description: str
+    constraints: str
+    lower: float | None  #: of a number with a range
+    upper: float | None
+    step: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class FieldInfo:
+    """A field of a message: what ``definition`` is answered, for each field."""
+
+    name: str
+    kind: str  #: "double", "string", or the type of a message: "geometry_msgs/msg/Vector3"
+    #: of an array its length, 0 for any; ``None``: it is none
+    length: int | None
+    fields: 'tuple[FieldInfo, ...]'  #: of a message
+    value: Any  #: the default, of what is neither a message nor an array

@@ -1,0 +1,177 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Any topic, of each message of which pages plot some numbers."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from rclpy.node import Node
+
+from amr_description.clock import NANOSECONDS
+from amr_description.errors import AmrError
+from amr_description.ros.cdr_fields import FieldReader, NOT_THERE, why_no_number
+from amr_description.ros.cdr_types import Group, layout_of, Many, Number
+from amr_description.ros.polled_topic import NumberedMessage
+from amr_description.viewer.protocol import Origin, Values
+from amr_description.viewer.ros.message_feed import unreadable
+from amr_description.viewer.ros.source import Source, SourceTopic
+from amr_description.viewer.ros.topic_rate import Rate
+from amr_description.viewer.samples import encode_sample
+
+_DEPTH = 250
+"""Messages that DDS keeps until the next poll: a quarter of a second of the fastest topics."""
+_DEPTH_LARGE = 10
+"""… of messages with octets: pictures, clouds."""
+_MOST = 500
+"""Messages of one poll; the rest is for the next one."""
+_PERIOD = 1 / 15
+"""s between two samples, at least: each costs more than a message of it."""
+_AGAIN = 2.0
+"""s until a page is told once more why there are no values."""
+_STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
+
+
+@dataclass(frozen=True, slots=True)
+class Fields:
+    """The paths that are plotted, and what reads them; replaced as a whole."""
+
+    paths: tuple[str, ...]
+    faults: dict[str, str]
+    """Why there is no number at a path."""
+    read: Callable[[bytes], list[float]]
+    """Returns the numbers, in the order of the paths; the first two are those of the stamp."""
+
+
+class FieldFeed:
+    """One topic; made and destroyed on the ROS thread, polled on the server's thread."""
+
+    def __init__(self, node: Node, source: Source, receive_time: Callable[[int], float]) -> None:
+        """
+        Subscribe.
+
+        Args:
+            node: That subscribes.
+            source: The topic.
+            receive_time: Returns the time of the states, s, for a system time, ns.
+        """
+        self._source = source
+        self._receive_time = receive_time
+        self._topic: SourceTopic | None = None
+        self._fault: bytes | None = None
+        self._due = 0.0
+        self._type: Any = None
+        self._fields: Fields | None = None
+        self._rate = Rate()
+        self._last: int | None = None
+        """The number of the last message, by DDS."""
+        self._next = 0
+        """The number of the next one, as pages are told."""
+        self._stamp = -np.inf
+        try:
+            self._type = source.message_type()
+            depth = _DEPTH_LARGE if _is_large(layout_of(self._type)) else _DEPTH
+            self._topic = SourceTopic(node, source, self._type, depth)
+        except AmrError as error:
+            self._fault = unreadable(source.topic, 'values', str(error))
+
+    def set_paths(self, paths: Iterable[str]) -> None:
+        """Plot these from now on."""
+        wanted = tuple(sorted(paths))
+        if self._topic is not None and (self._fields is None or self._fields.paths != wanted):
+            self._fields = fields_of(self._type, wanted)
+
+    def take(self, now: float, *, is_wanted: bool) -> bytes | None:  # noqa: ARG002
+        """Return a sample of all new messages; None: there are none."""
+        topic, fields = self._topic, self._fields
+        if now < self._due:
+            return None
+        if self._fault is not None:
+            self._due = now + _AGAIN
+            return self._fault
+        self._due = now + _PERIOD
+        if topic is None or fields is None:
+            return None
+        rows: list[tuple[int, list[float]]] = []
+        lost, last = 0, None
+        for last in self._messages(topic):
+            lost += self._lost_before(last)
+            try:
+                rows.append((last.received, fields.read(last.data)))
+            except ValueError:  # it is broken
+                lost += 1
+        if last is None:
+            return None
+        self._rate.add(last if self._source.is_alone else last._replace(number=None), len(rows))
+        first, self._next = self._next + lost, self._next + lost + len(rows)
+        return self._sample(fields, rows, first) if rows else None
+
+    def settle(self) -> None:
+        """See :meth:`SourceTopic.settle`."""
+        if self._topic is not None:
+            self._topic.settle()
+
+    def destroy(self) -> None:
+        """Unsubscribe."""
+        if self._topic is not None:
+            self._topic.destroy()
+
+    def _messages(self, topic: SourceTopic) -> Iterator[NumberedMessage]:
+        for _ in range(_MOST):
+            if (message := topic.take_numbered()) is None:
+                return
+            yield message
+
+    def _lost_before(self, message: NumberedMessage) -> int:
+        """Return how many messages did not come before this one, as far as DDS tells."""
+        before, self._last = self._last, message.number
+        if before is None or message.number is None or not self._source.is_alone:
+            return 0
+        return max(0, message.number - before - 1)
+
+    def _sample(self, fields: Fields, rows: list[tuple[int, list[float]]], first: int) -> bytes:
+        table = np.array([values for _, values in rows], '<f8')
+        stamps = table[:, 0] + table[:, 1] / NANOSECONDS
+        for row, (received, _) in enumerate(rows):
+            if not stamps[row]:
+                self._stamp = stamps[row] = max(self._stamp, self._receive_time(received))
+        count, path_count = len(rows), len(fields.paths)
+        head = Values(
+            Origin(self._source.topic, '', float(stamps[-1]), self._rate.value),
+            fields.paths,
+            count,
+            first,
+            fields.faults,
+        )
+        columns = np.ascontiguousarray(table[:, 2 : 2 + path_count].T)
+        return encode_sample(head, [stamps, columns])
+
+
+def fields_of(message_class: Any, paths: tuple[str, ...]) -> Fields:
+    """Return what reads these paths of the messages of a class; those that lead nowhere, too."""
+    faults = {path: why for path in paths if (why := why_no_number(message_class, path))}
+    stamp = () if why_no_number(message_class, _STAMP[0]) else _STAMP
+    good = [path for path in paths if path not in faults]
+    read = FieldReader(message_class, (*stamp, *good)).read
+    if stamp and not faults:
+        return Fields(paths, {}, read)
+    places = [2 + paths.index(path) for path in good]
+    nothing = [0.0, 0.0, *(NOT_THERE for _ in paths)]
+
+    def read_and_place(data: bytes) -> list[float]:
+        values, found = nothing.copy(), read(data)
+        values[: len(stamp)] = found[: len(stamp)]
+        for place, value in zip(places, found[len(stamp) :], strict=True):
+            values[place] = value
+        return values
+
+    return Fields(paths, faults, read_and_place)
+
+
+def _is_large(layout: Group) -> bool:
+    """Return whether messages have octets, as pictures and clouds do."""
+    return any(
+        isinstance(field, Many) and isinstance(field.element, Number) and field.element.size == 1
+        for _, field in layout.fields
+    )

@@ -1,0 +1,185 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What pages publish by a form: once, or at a rate until they have enough of it."""
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.validate_full_topic_name import validate_full_topic_name
+
+from amr_description.errors import ViewerError
+from amr_description.ros.cdr_types import Group, Layout, layout_of, Many, Text
+from amr_description.ros.message_fields import set_fields
+from amr_description.ros.message_types import message_type
+from amr_description.text import shorten
+from amr_description.viewer.introspection import FieldInfo
+from amr_description.viewer.requests import Publish
+from amr_description.viewer.ros.on_thread import on_ros_thread
+
+_MOST = 16
+"""Topics that a page may publish on."""
+_DEPTH = 10
+
+
+@dataclass(slots=True)
+class _Publication:
+    """One topic of one page."""
+
+    publisher: Publisher
+    kind: str
+    timer: asyncio.TimerHandle | None = None
+
+
+class Publications:
+    """
+    All that pages publish by forms; on the server's thread.
+
+    ``refusal`` returns why a topic must not be published on now, None: it may; it is asked for
+    each message. ``log`` logs a line.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        executor: Executor,
+        refusal: Callable[[str], str | None],
+        log: Callable[[str], object],
+    ) -> None:
+        self._node = node
+        self._executor = executor
+        self._refusal = refusal
+        self._log = log
+        self._of: dict[tuple[str, str], _Publication] = {}
+        """(page, topic) -> what it publishes."""
+
+    async def publish(self, page: str, request: Publish) -> str:
+        """Publish; return one line about it. Raises AmrError."""
+        topic, rate = request.topic, request.rate
+        if (refusal := self._refusal(topic)) is not None:
+            raise ViewerError(refusal)
+        kind = message_type(request.message, f'The type of {shorten(topic)}')
+        message = kind()
+        stamps = set_fields(message, request.values)
+        found = await self._publication(page, topic, kind, request.message)
+        if found.timer is not None:
+            found.timer.cancel()
+            found.timer = None
+
+        def send() -> None:
+            now = self._node.get_clock().now().to_msg()
+            for stamp in stamps:
+                stamp(now)
+            found.publisher.publish(message)
+
+        _publish(send)
+        often = f'at {rate:g} Hz' if rate else 'once'
+        self._log(f'{page} publishes {request.message} on {topic} {often}')
+        if rate:
+            self._repeat(found, topic, 1.0 / rate, send)
+        heard = found.publisher.get_subscription_count()
+        listeners = f'{heard} subscription{"s" * (heard != 1)}'
+        return f'published {often} on {topic}, to {listeners}'
+
+    def unpublish(self, page: str, topic: str) -> str:
+        """Publish no more on a topic; return one line about it."""
+        found = self._of.pop((page, topic), None)
+        if found is None:
+            return f'this page publishes nothing on {shorten(topic)}'
+        self._end([found])
+        return f'nothing more is published on {topic}'
+
+    def forget(self, page: str) -> None:
+        """A page has gone: what it published ends."""
+        gone = [key for key in self._of if key[0] == page]
+        self._end([self._of.pop(key) for key in gone])
+
+    def _repeat(
+        self, found: _Publication, topic: str, period: float, send: Callable[[], None]
+    ) -> None:
+        loop = asyncio.get_running_loop()
+
+        def again(due: float) -> None:
+            found.timer = None
+            try:
+                if self._refusal(topic) is not None:
+                    return  # a stop holds; after it, nothing moves by itself
+                _publish(send)
+            except ViewerError:
+                return  # the node ends
+            due = max(due + period, loop.time())
+            found.timer = loop.call_at(due, again, due)
+
+        due = loop.time() + period
+        found.timer = loop.call_at(due, again, due)
+
+    async def _publication(self, page: str, topic: str, kind: Any, name: str) -> _Publication:
+        key = page, topic
+        found = self._of.get(key)
+        if found is not None and found.kind == name:
+            return found
+        if found is None and sum(each[0] == page for each in self._of) >= _MOST:
+            raise ViewerError(f'this page publishes on {_MOST} topics already; end one first')
+        try:
+            validate_full_topic_name(topic)
+        except InvalidTopicNameException as error:
+            raise ViewerError(shorten(str(error))) from None
+        self.unpublish(page, topic)
+        publisher = await on_ros_thread(
+            self._executor, lambda: self._node.create_publisher(kind, topic, _DEPTH)
+        )
+        self._of[key] = _Publication(publisher, name)
+        return self._of[key]
+
+    def _end(self, publications: list[_Publication]) -> None:
+        for each in publications:
+            if each.timer is not None:
+                each.timer.cancel()
+            self._executor.create_task(self._node.destroy_publisher, each.publisher)
+
+
+def _publish(send: Callable[[], None]) -> None:
+    try:
+        send()
+    except InvalidHandle:
+        raise ViewerError('the viewer is ending') from None
+
+
+def fields_of_type(name: str) -> tuple[FieldInfo, ...]:
+    """Return the fields of the messages of a type. Raises AmrError."""
+    kind = message_type(name)
+    return _fields(layout_of(kind), kind())
+
+
+def _fields(layout: Group, example: Any) -> tuple[FieldInfo, ...]:
+    return tuple(_field(name, each, getattr(example, name)) for name, each in layout.fields)
+
+
+def _field(name: str, layout: Layout, value: Any) -> FieldInfo:
+    if isinstance(layout, Many):
+        element = layout.element
+        inner = () if not isinstance(element, Group) else _fields(element, _example(element))
+        return FieldInfo(name, _kind(element), layout.count or 0, inner, None)
+    if isinstance(layout, Group):
+        return FieldInfo(name, layout.name, None, _fields(layout, value), None)
+    return FieldInfo(name, _kind(layout), None, (), ord(value) if _is_octet(value) else value)
+
+
+def _example(layout: Group) -> Any:
+    return message_type(layout.name)()
+
+
+def _is_octet(value: Any) -> bool:
+    return isinstance(value, bytes) and len(value) == 1
+
+
+def _kind(layout: Layout) -> str:
+    if isinstance(layout, Text):
+        return 'wstring' if layout.is_wide else 'string'
+    assert not isinstance(layout, Many), 'an array has no arrays'
+    return layout.name

@@ -1,0 +1,67 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Another world around the robots that are there.
+
+A simulator that loads a world removes all entities, and stands still then. So the robots are
+spawned again where they were spawned before, under the same names, with the same active
+controllers, and time goes on if it did.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from amr_description.errors import ViewerError
+from amr_description.viewer.requests import LoadWorld, Play
+from amr_description.viewer.ros.service_clients import (
+    activate_controllers,
+    active_controllers,
+    ServiceClients,
+    SimulatorClient,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Resident:
+    """A robot of the world: its entity, its namespace, its URDF and its controller manager."""
+
+    entity: str
+    namespace: str
+    urdf: str
+    manager: str | None
+
+
+async def change_world(
+    services: ServiceClients,
+    simulator: SimulatorClient,
+    residents: Sequence[Resident],
+    request: LoadWorld,
+) -> str:
+    """Load a world; return one line about it and its robots. Raises ViewerError."""
+    poses = await simulator.spawn_poses()
+    controllers = {
+        each.manager: await active_controllers(services, each.manager)
+        for each in residents
+        if each.manager is not None
+    }
+    was_playing = simulator.state == 'playing'
+    done = await simulator.handle(request)
+    staying = [each for each in residents if each.entity in poses]
+    troubles = []
+    for each in [*staying]:
+        try:
+            pose = poses[each.entity]
+            await simulator.spawn(each.entity, each.namespace, each.urdf, pose)
+        except ViewerError as error:
+            staying.remove(each)
+            troubles.append(str(error))
+    kind = 'play' if was_playing else 'pause'
+    await simulator.handle(Play(kind, request.id, request.simulator))
+    for each in staying:
+        if each.manager is not None:
+            try:
+                await activate_controllers(services, each.manager, controllers[each.manager])
+            except ViewerError as error:
+                troubles.append(f"'{each.entity}' has no active controllers: {error}")
+    names = ', '.join(f"'{each.entity}'" for each in staying) or 'no robot'
+    return '; '.join([f'{done}, with {names}', *troubles])

@@ -1,0 +1,310 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The graph itself for the page: topics, TF, the log, parameters and what pages publish."""
+
+import asyncio
+import math
+import threading
+import time
+
+from geometry_msgs.msg import TransformStamped, Twist
+import pytest
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import Float64
+from support.ros_processes import PATIENCE
+from tf2_msgs.msg import TFMessage
+
+from amr_description.errors import AmrError
+from amr_description.launch_log import LAUNCH_LOG
+from amr_description.viewer.requests import Publish, SetParameter
+from amr_description.viewer.ros.introspection import Introspection
+from amr_description.viewer.ros.parameters import NodeParameters
+from amr_description.viewer.ros.publications import fields_of_type, Publications
+from amr_description.viewer.ros.service_clients import ServiceClients
+
+
+@pytest.fixture(scope='module')
+def ros():
+    """The node of the viewer, and another one with parameters, in one executor."""
+    rclpy.init(args=[])
+    viewer, other = Node('viewer'), Node('other', namespace='/robot1')
+    described = ParameterDescriptor(
+        description='how fast',
+        floating_point_range=[FloatingPointRange(from_value=0.0, to_value=2.0, step=0.5)],
+    )
+    other.declare_parameter('speed', 1.0, described)
+    other.declare_parameter('names', ['a', 'b'])
+    other.declare_parameter('fixed', 7, ParameterDescriptor(read_only=True))
+    other.declare_parameter('nothing', descriptor=ParameterDescriptor(dynamic_typing=True))
+    other.add_on_set_parameters_callback(
+        lambda parameters: SetParametersResult(
+            successful=all(each.value != ['no'] for each in parameters), reason='not\nthat name'
+        )
+    )
+    executor = SingleThreadedExecutor()
+    executor.add_node(viewer)
+    executor.add_node(other)
+    thread = threading.Thread(target=executor.spin)
+    thread.start()
+    yield viewer, other, executor
+    executor.shutdown()
+    thread.join()
+    viewer.destroy_node()
+    other.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def shown(ros):
+    """What an Introspection tells, and it."""
+    told = []
+    introspection = Introspection(ros[0], lambda part, message: told.append((part, message)))
+    introspection.open()
+    yield introspection, told
+    introspection.close()
+
+
+def until(introspection, told, condition):
+    """Poll until a message of those told makes a condition true; return that."""
+    end = time.monotonic() + PATIENCE
+    while True:
+        introspection.poll()
+        for _, message in reversed(told):
+            if found := condition(message):
+                return found
+        assert time.monotonic() < end, told[-1:]
+        time.sleep(0.01)
+
+
+def test_topics_are_listed_by_nodes_with_qos_and_rates(ros, shown):
+    viewer, other, _ = ros
+    introspection, told = shown
+    publisher = other.create_publisher(Float64, '/speed', 10)
+    hearer = viewer.create_subscription(Float64, '/speed', lambda _: None, 10)
+    introspection.watch({'topics', 'rates'}, ())
+
+    def speed(message):
+        publisher.publish(Float64())
+        found = {each.name: each for each in message.topics}.get('/speed')
+        return found if found and found.rate else None
+
+    found = until(introspection, told, speed)
+    assert found.kinds == ('std_msgs/msg/Float64',)
+    assert [(each.node, each.qos) for each in found.publishers] == [
+        ('/robot1/other', 'reliable, volatile')
+    ]
+    assert found.subscriptions == (), 'what the viewer itself has is left out'
+    assert '/robot1/other' in told[-1][1].nodes
+    assert introspection.latest('topics') == told[-1][1]
+    viewer.destroy_subscription(hearer)
+    other.destroy_publisher(publisher)
+
+
+def test_there_is_a_rate_of_several_publishers_that_keep_their_last_message(ros, shown):
+    _, other, _ = ros
+    introspection, told = shown
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    publishers = [other.create_publisher(Float64, '/speed', latched) for _ in range(2)]
+    introspection.watch({'topics', 'rates'}, ())
+
+    def speed(message):
+        for publisher in publishers:
+            publisher.publish(Float64())
+        found = {each.name: each for each in message.topics}.get('/speed')
+        return found if found and found.rate else None
+
+    assert len(until(introspection, told, speed).publishers) == 2
+    for publisher in publishers:
+        other.destroy_publisher(publisher)
+
+
+def test_frames_are_listed_with_two_parents_marked(ros, shown):
+    _, other, _ = ros
+    introspection, told = shown
+    publisher = other.create_publisher(TFMessage, '/tf', 100)
+
+    def send(parent):
+        transform = TransformStamped(child_frame_id='base')
+        transform.header.frame_id = parent
+        publisher.publish(TFMessage(transforms=[transform]))
+
+    introspection.watch({'transforms'}, ())
+
+    def base(message):
+        send('odom')
+        send('map')
+        found = {each.name: each for each in message.frames}.get('base')
+        return found if found and found.rate and len(found.parents) > 1 else None
+
+    found = until(introspection, told, base)
+    assert {*found.parents} == {'odom', 'map'}
+    assert (found.is_static, found.topic) == (False, '/tf')
+    assert 0.0 <= found.age < PATIENCE
+    assert '/robot1/other' in told[-1][1].publishers['/tf']
+    other.destroy_publisher(publisher)
+
+
+def test_warnings_are_kept_and_all_lines_are_told_to_who_looks(ros, shown):
+    _, other, _ = ros
+    introspection, told = shown
+    other.get_logger().info('all is well')
+    other.get_logger().warning('<b>the wheel</b> slips')
+
+    end = time.monotonic() + PATIENCE
+    while not introspection.latest('log').lines:
+        introspection.poll()
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    assert told == []
+    (kept,) = [each for each in introspection.latest('log').lines if 'slips' in each.text]
+    assert (kept.level, kept.node) == ('warning', 'robot1.other')
+    assert kept.text == '<b>the wheel</b> slips'
+    introspection.watch({'log'}, ())
+    other.get_logger().info('once more')
+    lines = until(introspection, told, lambda log: [x for x in log.lines if x.text == 'once more'])
+    assert lines[0].number > kept.number
+
+
+@pytest.fixture
+def parameters(ros):
+    viewer, _, executor = ros
+    services = ServiceClients(viewer)
+    yield NodeParameters(services, executor)
+    executor.create_task(services.set_more, {})
+
+
+def test_what_the_bring_up_warned_of_before_is_there(ros, tmp_path, monkeypatch):
+    log = tmp_path / 'launch.log'
+    log.write_text('1795411302.5 [WARNING] [launch]: look\n1795411302.6 [INFO] [launch]: no\n')
+    monkeypatch.setenv(LAUNCH_LOG, str(log))
+    introspection = Introspection(ros[0], lambda part, message: None)
+    introspection.open()
+    (line, *_) = introspection.latest('log').lines
+    introspection.close()
+    assert (line.stamp, line.level, line.node, line.text) == (
+        1795411302.5, 'warning', 'launch', 'look'
+    )  # fmt: skip
+
+
+def test_parameters_are_listed_with_bounds_and_set(parameters):
+    async def use():
+        listed = {each.name: each for each in await parameters.all_of('/robot1/other')}
+        return listed, await parameters.set(
+            SetParameter(1, '/robot1/other', 'speed', 'double', 1.5)
+        )
+
+    listed, speed = asyncio.run(use())
+    before = listed['speed']
+    assert (before.value, before.lower, before.upper, before.step) == (1.0, 0.0, 2.0, 0.5)
+    assert (before.kind, before.description) == ('double', 'how fast')
+    assert (listed['names'].kind, listed['names'].value) == ('string_array', ['a', 'b'])
+    assert (listed['fixed'].read_only, listed['fixed'].kind) == (True, 'integer')
+    assert (listed['nothing'].kind, listed['nothing'].value) == ('not set', None)
+    assert speed.value == 1.5
+
+
+@pytest.mark.parametrize(
+    ('name', 'kind', 'value', 'reason'),
+    [
+        ('speed', 'double', 9.0, '/robot1/other refuses speed: '),
+        ('fixed', 'integer', 8, '/robot1/other refuses fixed: '),
+        ('names', 'string_array', ['no'], '/robot1/other refuses names: not that name'),
+        ('speed', 'double', 'fast', "'fast' is no double"),
+        ('fixed', 'integer', 1.5, '1.5 is no integer'),
+        ('fixed', 'integer', 2**70, f'{2**70} is no integer'),
+        ('speed', 'cow', 1, 'a parameter cannot be of type cow'),
+    ],
+)
+def test_the_reason_of_a_refusal_is_said_in_one_line(parameters, name, kind, value, reason):
+    with pytest.raises(AmrError) as refused:
+        asyncio.run(parameters.set(SetParameter(1, '/robot1/other', name, kind, value)))
+    assert str(refused.value).startswith(reason)
+    assert '\n' not in str(refused.value)
+
+
+class Page:
+    """Publishes by forms; a topic that begins with /held is refused."""
+
+    def __init__(self, ros):
+        self.logged = []
+        self.is_held = False
+        self.publications = Publications(
+            ros[0],
+            ros[2],
+            lambda topic: 'a stop holds' if self.is_held and topic == '/cmd' else None,
+            self.logged.append,
+        )
+
+
+def publish(**fields):
+    given = {'topic': '/cmd', 'message': 'geometry_msgs/msg/Twist', 'values': {}, 'rate': 0.0}
+    return Publish(**{'id': 1} | given | fields)
+
+
+@pytest.fixture
+def heard(ros):
+    heard = []
+    _, other, _ = ros
+    subscription = other.create_subscription(Twist, '/cmd', heard.append, 1000)
+    yield heard
+    other.destroy_subscription(subscription)
+
+
+async def come(condition):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end
+        await asyncio.sleep(0.005)
+
+
+def test_what_is_published_at_a_rate_ends_with_its_page_or_a_stop(ros, heard):
+    page = Page(ros)
+
+    async def use():
+        values = {'linear': {'x': 0.5}}
+        await page.publications.publish('page 1', publish(values=values, rate=100.0))
+        await come(lambda: len(heard) > 5)
+        page.is_held = True
+        with pytest.raises(AmrError, match='a stop holds'):
+            await page.publications.publish('page 1', publish())
+        await come(lambda: all(each.timer is None for each in page.publications._of.values()))
+        page.is_held = False
+        await page.publications.publish('page 1', publish(values=values, rate=100.0))
+        page.publications.forget('page 1')
+        assert page.publications._of == {}
+
+    asyncio.run(use())
+    assert {each.linear.x for each in heard} == {0.5}
+    assert page.logged[0] == 'page 1 publishes geometry_msgs/msg/Twist on /cmd at 100 Hz'
+
+
+@pytest.mark.parametrize(
+    ('fields', 'reason'),
+    [
+        ({'message': 'no_such_msgs/msg/A'}, "there is no package 'no_such_msgs'"),
+        ({'values': {'linear': {'w': 1}}}, 'linear'),
+        ({'values': {'linear': 3}}, 'linear'),
+        ({'topic': 'no name'}, 'must be absolute'),
+    ],
+)
+def test_what_cannot_be_published_is_refused(ros, fields, reason):
+    page = Page(ros)
+    with pytest.raises(AmrError, match=reason) as refused:
+        asyncio.run(page.publications.publish('page 1', publish(**fields)))
+    assert '\n' not in str(refused.value)
+    assert page.logged == []
+
+
+def test_a_form_has_the_fields_of_the_message_with_their_defaults():
+    header, name, position, *_ = fields_of_type('sensor_msgs/msg/JointState')
+    assert [each.name for each in header.fields] == ['stamp', 'frame_id']
+    assert (name.kind, name.length, position.kind, position.length) == ('string', 0, 'double', 0)
+    (orientation,) = [
+        each for each in fields_of_type('geometry_msgs/msg/Pose') if each.name == 'orientation'
+    ]
+    assert [each.value for each in orientation.fields] == [0.0, 0.0, 0.0, 1.0]
+    assert not any(math.isnan(each.value) for each in orientation.fields)

@@ -1,0 +1,137 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** The sensors of the robot: each with a switch, what it says, and the pictures of cameras. */
+import { effect, type ReadonlySignal } from '@preact/signals';
+import { useLayoutEffect, useRef } from 'preact/hooks';
+import type { App, Panel } from '../app';
+import type { Picture, SensorInfo } from '../protocol';
+import type { Sample } from '../samples';
+import { PictureCanvas } from '../sensors/canvas';
+import type { Sensing } from '../sensors/sensing';
+import { measured, timing } from '../sensors/words';
+import type { State } from '../state';
+import { Chip, Switch } from '../ui';
+import { panelOf, type PanelProps } from './component';
+
+export interface SensorsPanel extends Panel {
+  /** How many pictures were drawn, by topic. */
+  readonly drawn: Record<string, number>;
+}
+
+type Canvases = Map<string, PictureCanvas>;
+
+export function sensorsPanel(app: App, sensing: Sensing): SensorsPanel {
+  const canvases: Canvases = new Map();
+  const Body = ({ state }: PanelProps) => (
+    <Sensors sensing={sensing} state={state} canvases={canvases} />
+  );
+  const topics = (): readonly string[] => sensing.shown.map(({ topic }) => topic);
+  const panel = panelOf(app, { id: 'sensors', title: 'Sensors', topics }, Body);
+  return Object.defineProperty(panel as SensorsPanel, 'drawn', {
+    get: () => Object.fromEntries([...canvases].map(([topic, { counts }]) => [topic, counts.drawn])),
+  });
+}
+
+interface SensorsProps {
+  sensing: Sensing;
+  state: ReadonlySignal<State | null>;
+  canvases: Canvases;
+}
+
+function Sensors(props: SensorsProps) {
+  const { here } = props.sensing;
+  return (
+    <>
+      <ul class="rows sensors">
+        {here.length === 0 && (
+          <li class="empty">
+            No sensor of this robot publishes: no scan, cloud, picture, range, contact, map or path.
+          </li>
+        )}
+        {here.map((info) => (
+          <Sensor key={`${info.topic} ${info.message}`} info={info} {...props} />
+        ))}
+      </ul>
+      <p class="fine">What is off is not subscribed: nobody has to measure it.</p>
+    </>
+  );
+}
+
+type SensorProps = SensorsProps & { info: SensorInfo };
+
+function Sensor(props: SensorProps) {
+  const { info, sensing } = props;
+  const { topic, message } = info;
+  const on = sensing.isOn(info);
+  return (
+    <li class="unit sensor">
+      <span class="unit-name" title={`${topic} (${message})`}>
+        {topic.replace(/\/compressed$/, '') /* the type says so */}
+      </span>
+      <Chip title={message}>{message.split('/').at(-1) ?? message}</Chip>
+      <Switch
+        on={on}
+        label={`Show ${topic}`}
+        title={on ? 'Hide it' : 'Show it'}
+        onFlip={(wanted) => sensing.set(topic, wanted)}
+      />
+      <Words {...props} />
+      {info.kind === 'picture' && on && <Camera {...props} />}
+    </li>
+  );
+}
+
+/** How often it comes, and what it has measured. */
+function Words({ info, sensing, state }: SensorProps) {
+  const now = state.value;
+  const sample = sensing.latest.get(info.topic);
+  if (!sensing.isOn(info) || sample === undefined || now === null) {
+    return <span class="fine">{sensing.isOn(info) ? 'nothing has come yet' : ''}</span>;
+  }
+  const isUnreadable = sample.head.type === 'unreadable';
+  return (
+    <>
+      <span class="fine">{timing(sample, now.time)}</span>
+      <span class="fine measured" data-tone={isUnreadable ? 'warning' : undefined}>
+        {homeless(info, sample, now) ?? measured(sample, now.time)}
+      </span>
+    </>
+  );
+}
+
+/** Why a sample is not in the scene; null: it is, or it need not be. */
+function homeless({ kind, robot }: SensorInfo, { head }: Sample, { layout }: State): string | null {
+  const isPlaced = kind === 'map' || kind === 'path'; // before there is a map in TF, too
+  if (kind === 'picture' || isPlaced || head.type === 'unreadable' || head.origin.frame === 'world') {
+    return null;
+  }
+  const { frame } = head.origin;
+  const names = [frame, `${robot.slice(1)}/${frame}`];
+  const there = layout.frames.some(
+    ({ name, parent }) => names.includes(name) || names.includes(parent),
+  );
+  return there ? null : `its frame "${frame}" is not in TF, so that it has no place in the view`;
+}
+
+function Camera({ info: { topic }, sensing, state, canvases }: SensorProps) {
+  const element = useRef<HTMLCanvasElement>(null);
+  useLayoutEffect(() => {
+    if (element.current === null) {
+      return;
+    }
+    const canvas = new PictureCanvas(element.current);
+    canvases.set(topic, canvas);
+    const stop = effect(() => {
+      void state.value; // with each it is looked for
+      const sample = sensing.latest.get(topic);
+      if (sample?.head.type === 'picture') {
+        canvas.show(sample as Sample<Picture>);
+      }
+    });
+    return () => {
+      stop();
+      canvases.delete(topic);
+    };
+  }, [topic, sensing, state, canvases]);
+  return <canvas ref={element} class="camera" role="img" aria-label={`Picture of ${topic}`} hidden />;
+}

@@ -1,0 +1,73 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+/** Has the fields that are plotted come, and keeps what comes. */
+import { nameOf, type Field } from './field';
+import type { Recorder } from './recorder';
+
+/** Numbers of the messages of a topic; see channels.ts. */
+export interface FieldFeed {
+  plot(
+    topic: string,
+    path: string,
+    follower: {
+      take(batch: { stamps: Float64Array; values: Float64Array; lost: number }): void;
+      fail(reason: string): void;
+    },
+  ): () => void;
+}
+
+interface Followed {
+  end: () => void;
+  fault: string | null;
+}
+
+export class Following {
+  private readonly followed = new Map<string, Followed>();
+
+  constructor(
+    private readonly feed: FieldFeed,
+    private readonly recorder: Recorder,
+  ) {}
+
+  /** These fields are plotted now, and no others. */
+  follow(fields: readonly Field[]): void {
+    const wanted = new Set(fields.map(nameOf));
+    for (const [name, { end }] of [...this.followed]) {
+      if (!wanted.has(name)) {
+        end();
+        this.followed.delete(name);
+      }
+    }
+    for (const field of fields) {
+      if (!this.followed.has(nameOf(field))) {
+        this.begin(field);
+      }
+    }
+    this.recorder.keepFields(fields);
+  }
+
+  /** Why there are no numbers of a field, in one line; null: none was said. */
+  faultOf(field: Field): string | null {
+    return this.followed.get(nameOf(field))?.fault ?? null;
+  }
+
+  private begin(field: Field): void {
+    const followed: Followed = { end: () => {}, fault: null };
+    followed.end = this.feed.plot(field.topic, field.path, {
+      take: ({ stamps, values, lost }) => {
+        followed.fault = null;
+        const [first] = stamps;
+        if (lost > 0 && first !== undefined) {
+          this.recorder.take(field, first, Number.NaN); // no line over what never came
+        }
+        for (const [index, stamp] of stamps.entries()) {
+          this.recorder.take(field, stamp, values[index] ?? Number.NaN);
+        }
+      },
+      fail: (reason) => {
+        followed.fault = reason;
+      },
+    });
+    this.followed.set(nameOf(field), followed);
+  }
+}

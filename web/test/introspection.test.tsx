@@ -1,0 +1,247 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { fitted, layered } from '../src/graph/layered';
+import { framesPicture, nodesPicture } from '../src/graph/shown';
+import { graphPanel } from '../src/panels/graph';
+import { logPanel } from '../src/panels/log';
+import { numberOf } from '../src/panels/message_tree';
+import { parametersPanel } from '../src/panels/parameters';
+import { valuesOf } from '../src/panels/publish_form';
+import { topicsPanel } from '../src/panels/topics';
+import type { FieldInfo, FrameStatus, LogLine, ParameterInfo, TopicInfo } from '../src/protocol';
+import type { Sample } from '../src/samples';
+import { connectedApp, drawn, texts, type TestApp } from './page';
+
+function topic(name: string, from: string[], to: string[], rate: number | null = null): TopicInfo {
+  const ends = (nodes: string[]) => nodes.map((node) => ({ node, qos: 'reliable, volatile' }));
+  return { name, kinds: ['a/msg/B'], publishers: ends(from), subscriptions: ends(to), rate };
+}
+
+const TOPICS = [
+  topic('/odom', ['/drive'], ['/page', '/nav'], 50),
+  topic('/rosout', ['/drive'], ['/page']),
+  topic('/<b>', ['/drive'], []),
+];
+
+function withTopics(): TestApp {
+  const app = connectedApp();
+  app.say({ type: 'topics', nodes: ['/drive', '/nav', '/page', '/alone'], topics: TOPICS });
+  return app;
+}
+
+const NO_PLOTS = { toggle: () => {}, isPlotted: () => false };
+
+function type(input: Element | null, text: string, event = 'input'): void {
+  (input as HTMLInputElement).value = text;
+  input?.dispatchEvent(new Event(event, { bubbles: true }));
+}
+
+function click(element: Element | null | undefined): void {
+  (element as HTMLElement).click();
+}
+
+test('topics are found by name, type and node, and their names are text', async () => {
+  const panel = topicsPanel(withTopics(), NO_PLOTS);
+  assert.deepEqual(texts(panel, '.unit-name'), ['/odom', '/rosout', '/<b>']);
+  assert.equal(texts(panel, '.topic .fine')[0], '50 Hz · 1 → 2');
+  type(panel.element.querySelector('input'), 'NAV b');
+  await drawn();
+  assert.deepEqual(texts(panel, '.unit-name'), ['/odom']);
+  assert.deepEqual(panel.watches, ['topics']);
+  click(panel.element.querySelector('[role=switch]'));
+  assert.deepEqual(panel.watches, ['topics', 'rates']);
+});
+
+test('an open topic echoes its messages; a number of it is plotted', async () => {
+  const app = withTopics();
+  const plotted: string[] = [];
+  const panel = topicsPanel(app, {
+    toggle: ({ topic: name, path }) => void plotted.push(`${name}:${path}`),
+    isPlotted: ({ path }) => path === 'a.x[0]',
+  });
+  click(panel.element.querySelector('.topic'));
+  await drawn();
+  assert.deepEqual(app.channels.messages, ['/odom']);
+  const origin = { topic: '/odom', frame: '', stamp: 0, rate: 50 };
+  const tree = { a: { x: [1.5, { '#number': 'NaN' }] }, name: '<i>' };
+  app.channels.take({
+    head: { type: 'message', origin, message: 'a/msg/B', size: 9 },
+    bytes: new TextEncoder().encode(JSON.stringify(tree)),
+    floats: new Float32Array(),
+  } satisfies Sample);
+  await drawn();
+  assert.deepEqual(texts(panel, '.leaf .number'), ['1.5', 'NaN']);
+  assert.deepEqual(texts(panel, '.leaf .words'), ['<i>']);
+  const numbers = [...panel.element.querySelectorAll('.leaf .number')];
+  assert.deepEqual(numbers.map((each) => each.getAttribute('aria-pressed')), ['true', 'false']);
+  click(numbers[1]);
+  assert.deepEqual(plotted, ['/odom:a.x[1]']);
+  click(panel.element.querySelector('.topic'));
+  await drawn();
+  assert.deepEqual(app.channels.messages, [], 'what is not drawn is not asked for');
+});
+
+const FIELDS: FieldInfo[] = [
+  { name: 'stamp', kind: 'builtin_interfaces/msg/Time', length: null, fields: [], value: null },
+  { name: 'name', kind: 'string', length: null, fields: [], value: '' },
+  {
+    name: 'linear', kind: 'a/msg/V', length: null, value: null,
+    fields: [{ name: 'x', kind: 'double', length: null, fields: [], value: 0 }],
+  },
+  { name: 'list', kind: 'double', length: 0, fields: [], value: null },
+];
+
+test('what was typed becomes the values of a message, and the rest are defaults', () => {
+  assert.deepEqual(valuesOf(FIELDS, {}), {});
+  const typed = { stamp: 'now', name: '3', 'linear.x': '-0.5', list: '[1, 2]' };
+  assert.deepEqual(valuesOf(FIELDS, typed), { stamp: 'now', name: '3', linear: { x: -0.5 }, list: [1, 2] });
+  assert.throws(() => valuesOf(FIELDS, { 'linear.x': 'fast' }), /linear\.x is a double: "fast"/);
+});
+
+test('a form publishes at a rate until it is closed with its topic', async () => {
+  const app = withTopics();
+  const panel = topicsPanel(app, NO_PLOTS);
+  click(panel.element.querySelector('.topic'));
+  await drawn();
+  const button = (text: string) =>
+    [...panel.element.querySelectorAll('button')].find((each) => each.textContent === text);
+  click(button('Publish …'));
+  app.say({ type: 'reply', id: 1, ok: true, message: '', data: FIELDS });
+  await drawn();
+  type(panel.element.querySelector('[id="publish-linear.x"]'), '2');
+  await drawn();
+  click(button('At 10 Hz'));
+  assert.deepEqual(app.sent.at(-1), {
+    type: 'publish', id: 2, topic: '/odom', message: 'a/msg/B', values: { linear: { x: 2 } }, rate: 10,
+  });
+  app.say({ type: 'reply', id: 2, ok: true, message: 'published', data: null });
+  await drawn();
+  assert.deepEqual(texts(panel, '.publish output'), ['published']);
+  click(panel.element.querySelector('.topic'));
+  await drawn();
+  assert.deepEqual(app.sent.at(-1), { type: 'unpublish', id: 3, topic: '/odom' });
+});
+
+function line(number: number, level: LogLine['level'], node: string, text: string): LogLine {
+  return { number, stamp: number, level, node, text, place: '' };
+}
+
+test('the log is sifted by level, node and words, the newest first, each line once', async () => {
+  const app = connectedApp();
+  const panel = logPanel(app);
+  const old = line(1, 'warning', 'sim', 'the <b>wheel</b> slips');
+  app.say({ type: 'log', lines: [line(2, 'info', 'sim', 'ready'), line(3, 'error', 'nav', 'lost')] });
+  app.say({ type: 'log', lines: [old, line(3, 'error', 'nav', 'lost')] });
+  await drawn();
+  assert.deepEqual(texts(panel, '.log .words'), ['lost', 'ready', 'the <b>wheel</b> slips']);
+  const [level, node] = panel.element.querySelectorAll('select');
+  type(level ?? null, 'warning', 'change');
+  await drawn();
+  assert.deepEqual(texts(panel, '.log .words'), ['lost', 'the <b>wheel</b> slips']);
+  type(node ?? null, 'sim', 'change');
+  await drawn();
+  assert.deepEqual(texts(panel, '.log .words'), ['the <b>wheel</b> slips']);
+  type(panel.element.querySelector('input'), 'LOST');
+  await drawn();
+  assert.deepEqual(texts(panel, '.empty'), ['No line is of this kind.']);
+});
+
+const SPEED: ParameterInfo = {
+  name: 'speed', kind: 'double', value: 1, read_only: false, description: 'how fast',
+  constraints: '', lower: 0, upper: 2, step: null,
+};
+
+test('a parameter is set when it is left; the reason of a refusal is beside it', async () => {
+  const app = withTopics();
+  const panel = parametersPanel(app);
+  type(panel.element.querySelector('select'), '/drive', 'change');
+  await drawn();
+  assert.deepEqual(app.sent.at(-1), { type: 'parameters', id: 1, node: '/drive' });
+  app.say({
+    type: 'reply', id: 1, ok: true, message: '',
+    data: [SPEED, { ...SPEED, name: 'fixed', read_only: true }],
+  });
+  await drawn();
+  assert.equal(texts(panel, '.parameter .fine')[0], 'double · 0 to 2 · how fast');
+  const inputs = panel.element.querySelectorAll<HTMLInputElement>('.parameter input');
+  assert.deepEqual([...inputs].map(({ readOnly }) => readOnly), [false, true]);
+  type(inputs[0] ?? null, '9', 'blur');
+  await drawn();
+  assert.deepEqual(app.sent.at(-1), {
+    type: 'set_parameter', id: 2, node: '/drive', name: 'speed', kind: 'double', value: 9,
+  });
+  app.say({ type: 'reply', id: 2, ok: false, message: '/drive refuses speed: 9 > 2', data: null });
+  await drawn();
+  assert.deepEqual(texts(panel, '[role=alert]'), ['/drive refuses speed: 9 > 2']);
+});
+
+test('the picture of nodes leaves out what nearly all nodes have', () => {
+  const all = { type: 'topics' as const, nodes: ['/alone'], topics: TOPICS };
+  const few = nodesPicture(all, false, '');
+  assert.deepEqual(few.boxes.map(({ id }) => id), ['topic /odom', 'node /drive', 'node /nav', 'node /page']);
+  assert.equal(few.edges.length, 3);
+  assert.equal(nodesPicture(all, true, '').boxes.length, 7);
+  assert.deepEqual(nodesPicture(all, true, '/nav').boxes.map(({ id }) => id)[0], 'topic /odom');
+});
+
+function frame(name: string, parents: string[], age: number | null = 0.1): FrameStatus {
+  const [parent = ''] = parents;
+  return { name, parent, parents, is_static: age === null, rate: age === null ? null : 20, age, topic: '/tf' };
+}
+
+test('the picture of frames marks islands, two parents, and what comes no more', () => {
+  const frames = [
+    frame('base', ['odom', 'map']), frame('laser', ['base'], null), frame('arm', ['island'], 9),
+  ];
+  const { boxes, edges, faults } = framesPicture({ type: 'transforms', frames, publishers: {} });
+  assert.equal(faults.length, 2);
+  assert.match(faults[0] ?? '', /3 trees that nothing connects: odom, map, island/);
+  assert.match(faults[1] ?? '', /base has 2 parents: odom, map/);
+  const tones = new Map(boxes.map(({ id, tone }) => [id, tone]));
+  assert.deepEqual([tones.get('base'), tones.get('laser'), tones.get('arm')], ['error', undefined, 'warning']);
+  assert.deepEqual(edges.map(({ tone }) => tone), ['error', 'error', 'static', undefined]);
+  assert.equal(boxes.find(({ id }) => id === 'base')?.lines[1], '20 Hz, 0.10 s old');
+});
+
+test('each box is right of those that lead to it, none on another, with loops and without', () => {
+  const boxes = 'abcdefgh'.split('').map((id, index) => ({ id, width: 40 + 9 * index, height: 20 }));
+  const edges: [string, string][] = [
+    ['a', 'b'], ['b', 'c'], ['a', 'c'], ['c', 'd'], ['e', 'c'], ['d', 'd'], ['f', 'nobody'],
+  ];
+  const at = new Map(layered(boxes, edges).boxes.map((box) => [box.id, box]));
+  for (const [from, to] of edges.slice(0, 5)) {
+    const [one, other] = [at.get(from), at.get(to)];
+    assert.ok(one !== undefined && other !== undefined && one.x + one.width < other.x, `${from} ${to}`);
+  }
+  const loop: [string, string][] = [...edges, ['d', 'a'], ['g', 'h'], ['h', 'g']];
+  for (const drawing of [layered(boxes, loop), fitted(boxes, loop, 0.1), fitted(boxes, loop, 9)]) {
+    assert.equal(drawing.boxes.length, boxes.length);
+    for (const one of drawing.boxes) {
+      assert.ok(one.x >= 0 && one.x + one.width <= drawing.width + 1e-9);
+      assert.ok(one.y >= 0 && one.y + one.height <= drawing.height + 1e-9);
+      for (const other of drawing.boxes) {
+        const apart =
+          one.x + one.width <= other.x || other.x + other.width <= one.x
+          || one.y + one.height <= other.y || other.y + other.height <= one.y;
+        assert.ok(one === other || apart, `${one.id} ${other.id}`);
+      }
+    }
+  }
+});
+
+test('the picture asks for what it shows alone', async () => {
+  const app = withTopics();
+  const panel = graphPanel(app);
+  assert.deepEqual(panel.watches, ['topics']);
+  assert.deepEqual(texts(panel, '.box text'), ['/odom', '50 Hz', '/drive', '/nav', '/page']);
+  click(panel.element.querySelectorAll('.toggle')[1]);
+  await drawn();
+  assert.deepEqual(panel.watches, ['transforms']);
+});
+
+test('numbers are short, and tell what is none', () => {
+  const numbers = [0.1 + 0.2, 7, 1e-9, true, { '#number': 'Infinity' }, 'NaN'];
+  assert.deepEqual(numbers.map(numberOf), ['0.3', '7', '1e-9', 'true', 'Infinity', null]);
+});

@@ -1,0 +1,222 @@
+// Copyright 2026 The amr_description authors
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { connectedApp, drawn, texts, type TestApp } from './page';
+import type { FieldFeed } from '../src/plots/following';
+import { Recorder } from '../src/plots/recorder';
+
+type Follower = Parameters<FieldFeed['plot']>[2];
+
+// What a chart needs of a browser, beyond a document: it has no size here, so that nothing is drawn.
+Object.assign(window, { matchMedia: () => ({ matches: false, addEventListener: () => {} }) });
+Object.assign(globalThis, {
+  ResizeObserver: class {
+    observe(): void {}
+  },
+  requestAnimationFrame: (call: () => void) => setTimeout(call),
+  matchMedia: window.matchMedia,
+  devicePixelRatio: 1,
+  CustomEvent: window.CustomEvent,
+  Node: window.Node,
+  navigator: window.navigator,
+  getComputedStyle: window.getComputedStyle.bind(window),
+});
+const { PlotsPanel } = await import('../src/plots/panel');
+
+/** What the panel wishes to follow, by name. */
+class Feed implements FieldFeed {
+  readonly followers = new Map<string, Follower>();
+
+  plot(topic: string, path: string, follower: Follower): () => void {
+    this.followers.set(`${topic}:${path}`, follower);
+    return () => void this.followers.delete(`${topic}:${path}`);
+  }
+
+  say(name: string, stamps: number[], values: number[], lost = 0): void {
+    const batch = { stamps: Float64Array.from(stamps), values: Float64Array.from(values), lost };
+    this.followers.get(name)?.take(batch);
+  }
+}
+
+const SPEED = '/odom:twist.twist.linear.x';
+const field = { topic: '/odom', path: 'twist.twist.linear.x' };
+
+function plots(): { app: TestApp; feed: Feed; recorder: Recorder; panel: InstanceType<typeof PlotsPanel> } {
+  localStorage.clear();
+  const [app, feed, recorder] = [connectedApp(), new Feed(), new Recorder(() => [])];
+  const panel = new PlotsPanel(app, recorder, feed);
+  panel.layout.reset(); // what another test chose lasts a visit
+  return { app, feed, recorder, panel };
+}
+
+function type(panel: { element: HTMLElement }, text: string): void {
+  const input = panel.element.querySelector('.plot-search input') as HTMLInputElement;
+  input.value = text;
+  input.dispatchEvent(new Event('input', { bubbles: true }));
+}
+
+function submit(panel: { element: HTMLElement }): void {
+  const form = panel.element.querySelector('.plot-search') as HTMLFormElement;
+  form.dispatchEvent(new Event('submit', { bubbles: true, cancelable: true }));
+}
+
+function shown(panel: { element: HTMLElement }): string[] {
+  return [...panel.element.querySelectorAll<HTMLElement>('.chart:not([hidden]) .chart-title')].map(
+    (title) => title.textContent,
+  );
+}
+
+test('the charts of the robot are there, that of the simulator where there is one', () => {
+  const { panel } = plots();
+  assert.deepEqual(shown(panel), ['Linear velocity', 'Angular velocity', 'Wheel speeds']);
+  assert.deepEqual(texts(panel, '.chart:first-child th'), ['command', 'odometry', 'truth']);
+});
+
+test('a field that is searched for is followed, kept, and said in the legend of its chart', async () => {
+  const { feed, panel, recorder } = plots();
+  type(panel, '/odom twist.twist.linear.x');
+  await drawn();
+  submit(panel);
+  assert.equal(shown(panel).at(-1), '/odom linear');
+  assert.deepEqual([...feed.followers.keys()], [SPEED]);
+  feed.say(SPEED, [1, 1.5], [0.25, 0.375]);
+  panel.repaint();
+  assert.deepEqual(texts(panel, '.chart:last-child th'), ['linear.x']);
+  assert.equal(texts(panel, '.chart:last-child td')[0], '0.38');
+  assert.equal(recorder.series(undefined, field)?.latest, 1.5);
+});
+
+test('while one searches, topics are offered, then the numbers of those that are meant', async () => {
+  const { app, panel } = plots();
+  const input = panel.element.querySelector('.plot-search input') as HTMLInputElement;
+  assert.deepEqual(panel.watches, []);
+  input.dispatchEvent(new Event('focus'));
+  assert.deepEqual(panel.watches, ['topics']);
+  const ends = { publishers: [], subscriptions: [], rate: null };
+  const many = Array.from({ length: 7 }, (_, index) => ({ name: `/t${index}`, kinds: ['a/T'], ...ends }));
+  app.say({ type: 'topics', nodes: [], topics: [{ name: '/odom', kinds: ['a/Odom'], ...ends }, ...many] });
+  await drawn();
+  assert.equal(texts(panel, 'datalist option').length, 8);
+  const asked = () => app.sent.filter((message) => message.type === 'definition');
+  assert.equal(asked().length, 0, 'of many topics, nothing is asked');
+  type(panel, 'ODOM');
+  await drawn();
+  assert.deepEqual(asked().map(({ message }) => message), ['a/Odom']);
+  const plain = { length: null, fields: [], value: 0 };
+  const data = [
+    { ...plain, name: 'frame', kind: 'string' },
+    { ...plain, name: 'twist', kind: 'a/V', fields: [{ ...plain, name: 'x', kind: 'double' }] },
+    { ...plain, name: 'covariance', kind: 'double', length: 36 },
+  ];
+  app.say({ type: 'reply', id: asked()[0]!.id, ok: true, message: '', data });
+  await drawn();
+  assert.deepEqual(texts(panel, 'datalist option'), ['/odom:twist.x', '/odom:covariance[0]']);
+  type(panel, '/odom tw');
+  await drawn();
+  assert.deepEqual(texts(panel, 'datalist option'), ['/odom:twist.x']);
+  input.dispatchEvent(new Event('blur'));
+  assert.deepEqual(panel.watches, []);
+});
+
+test('behind the latest value, nothing is said of what has not come', async () => {
+  const { feed, panel } = plots();
+  panel.toggle(field);
+  feed.say(SPEED, [0, 2], [0.25, 0.5]);
+  const place = panel.element.querySelector('.chart:last-child .chart-plot') as HTMLElement;
+  const press = (key: string) =>
+    place.dispatchEvent(Object.assign(new Event('keydown', { bubbles: true }), { key }));
+  const value = () => texts(panel, '.chart:last-child td')[0];
+  press('ArrowLeft');
+  await drawn();
+  assert.equal(value(), '–');
+  for (let step = 0; step < 50; step += 1) {
+    press('ArrowLeft');
+  }
+  await drawn();
+  assert.equal(value(), '0.25');
+});
+
+test('what is no field is not plotted', async () => {
+  const { feed, panel } = plots();
+  type(panel, 'odom');
+  await drawn();
+  submit(panel);
+  assert.equal(feed.followers.size, 0);
+  assert.equal(shown(panel).length, 3);
+});
+
+test('a field that does not exist says why in its legend, until it comes', () => {
+  const { feed, panel } = plots();
+  panel.toggle(field);
+  feed.followers.get(SPEED)?.fail('nav_msgs/msg/Odometry has no field twist.twist.linear.x');
+  panel.repaint();
+  assert.match(texts(panel, '.chart:last-child td')[0] ?? '', /has no field/);
+  feed.say(SPEED, [1], [0.5]);
+  panel.repaint();
+  assert.equal(texts(panel, '.chart:last-child td')[0], '0.50');
+});
+
+test('a field that is dropped on a chart joins it, and its button takes it out', () => {
+  const { feed, panel } = plots();
+  const [chart] = panel.element.querySelectorAll('.chart');
+  const drop = new Event('drop', { bubbles: true, cancelable: true });
+  const transfer = { types: ['application/x-amr-field'], getData: () => SPEED };
+  chart!.dispatchEvent(Object.assign(drop, { dataTransfer: transfer }));
+  assert.equal(shown(panel).length, 3, 'no chart of its own');
+  assert.deepEqual(texts(panel, '.chart:first-child th'), ['command', 'odometry', 'truth', 'linear.x']);
+  (panel.element.querySelector('.legend button') as HTMLButtonElement).click();
+  assert.equal(feed.followers.size, 0);
+});
+
+test('messages that were lost leave a gap', () => {
+  const { feed, panel, recorder } = plots();
+  panel.toggle(field);
+  feed.say(SPEED, [1], [1]);
+  feed.say(SPEED, [5], [2], 3);
+  const found: number[] = [];
+  recorder.series(undefined, field)?.visit(0, 9, 0, (_, value) => found.push(value));
+  assert.deepEqual(found, [1, Number.NaN, 2]);
+});
+
+test('arrow keys move one cursor over all charts, and what is there is said', async () => {
+  const { feed, panel } = plots();
+  panel.toggle(field);
+  feed.say(SPEED, [1, 2], [0.25, 0.5]);
+  const place = panel.element.querySelector('.chart:last-child .chart-plot') as HTMLElement;
+  const press = (key: string, shiftKey = false) =>
+    place.dispatchEvent(Object.assign(new Event('keydown', { bubbles: true }), { key, shiftKey }));
+  press('ArrowLeft');
+  await drawn();
+  const cursors = [...panel.element.querySelectorAll<HTMLElement>('.chart-cursor')];
+  assert.ok(cursors.every(({ hidden }) => !hidden));
+  const [live] = panel.element.querySelectorAll('[role=status]');
+  const said = async () => {
+    while (live!.textContent === '') {
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+    return live!.textContent;
+  };
+  assert.match(await said(), /^\d+\.\d\d s: linear\.x 0\.50$/);
+});
+
+test('pausing holds what is seen while recording goes on; so does looking at another time', async () => {
+  const { feed, panel, recorder } = plots();
+  panel.toggle(field);
+  feed.say(SPEED, [1], [0.25]);
+  const pause = panel.element.querySelector('.toggle') as HTMLButtonElement;
+  pause.click();
+  feed.say(SPEED, [2], [0.5]);
+  panel.repaint();
+  await drawn();
+  assert.equal(pause.getAttribute('aria-pressed'), 'true');
+  assert.equal(texts(panel, '.chart:last-child td')[0], '0.25');
+  assert.equal(recorder.series(undefined, field)?.at(2), 0.5);
+  pause.click();
+  await drawn();
+  assert.equal(texts(panel, '.chart:last-child td')[0], '0.50');
+  const place = panel.element.querySelector('.chart:last-child .chart-plot') as HTMLElement;
+  place.dispatchEvent(Object.assign(new Event('keydown', { bubbles: true }), { key: '+' }));
+  await drawn();
+  assert.equal(pause.getAttribute('aria-pressed'), 'true', 'zoomed');
+});
