@@ -43,6 +43,7 @@ from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
 from amr_description.errors import AmrError
+from amr_description.launch_log import LAUNCH_LOG
 
 _INDENT = '    '
 
@@ -94,6 +95,7 @@ def start(
     record.register(about, names=names, force=force)
     folder = LogFolder(log_base(os.environ), run)
     try:
+        os.environ[LAUNCH_LOG] = str(folder.path / 'launch.log')  # of all that it starts
         specs = process_specs(stack, folder.path, prefix)
         events = EventLog(lambda e: folder.append(EVENTS_FILE, json_line(e)), record.update)
         events.note('begun', run=run, pid=os.getpid(), log_folder=str(folder.path), **about)

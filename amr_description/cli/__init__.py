@@ -28,7 +28,6 @@ graph.py actions.py     topics, services, nodes, actions of the ROS graph
 names.py                names of topics, services and actions, as they are typed
 qos.py                  QoS from flags, or matched to publishers
 mismatch.py             warnings about nodes with another message type
-message_fields.py       YAML -> the fields of a message; ``auto`` and ``now``
 message_text.py         a message -> YAML or CSV
 message_filter.py       ``--filter``
 echo_printer.py         the output of ``ros2 topic echo``

@@ -83,6 +83,10 @@ def main(argv: list[str]) -> int:
         return _print_inertial(text, source, find_file, arguments)
     if arguments.mass or arguments.density:
         raise UsageError('--mass and --density are of the link that --inertia LINK names')
+    if arguments.footprint:
+        return _print_footprint(text, source, find_file, arguments)
+    if arguments.heights or arguments.frame:
+        raise UsageError('--heights and --frame are of --footprint')
     inputs = CheckInputs(
         file_exists=lambda uri: _is_there(find_file, uri),
         find_file=find_file,
@@ -149,7 +153,30 @@ def _parser() -> argparse.ArgumentParser:
     about = 'of the link of --inertia; without it, the mass that the description gives it'
     weight.add_argument('--mass', metavar='KG', type=_positive, help=f'mass {about}')
     weight.add_argument('--density', metavar='KG/M3', type=_positive, help=f'density {about}')
+    add(
+        '--footprint',
+        action='store_true',
+        help='print the polygon on the ground for costmaps of Nav2 instead, from the collisions',
+    )
+    add(
+        '--heights',
+        metavar=('LOW', 'HIGH'),
+        nargs=2,
+        type=_finite,
+        help='of what is in the footprint, m above the lowest collision (default: everything)',
+    )
+    add('--frame', metavar='LINK', help='of the footprint (default: base_link, base_footprint …)')
     return parser
+
+
+def _finite(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"'{text}' is no number")
+    return value
 
 
 def _positive(text: str) -> float:
@@ -179,6 +206,26 @@ def _print_inertial(
         raise
     except AmrError as error:
         return _fail(error, UNUSABLE, arguments)
+    return OK
+
+
+def _print_footprint(
+    text: str, source: str, find_file: FindFile, arguments: argparse.Namespace
+) -> int:
+    """Print the footprint of the robot; return the exit code."""
+    from amr_description.cli.footprint import footprint_json, footprint_yaml
+    from amr_description.model.footprint import footprint
+
+    low, high = arguments.heights or (-math.inf, math.inf)
+    if low > high:
+        raise UsageError(f'--heights {low:g} {high:g}: the first must not be above the second')
+    try:
+        found = footprint(
+            parse(text, source), find_file, frame=arguments.frame, heights=(low, high)
+        )
+    except AmrError as error:
+        return _fail(error, UNUSABLE, arguments)
+    print(footprint_json(found) if arguments.json else footprint_yaml(found))
     return OK
 
 

@@ -20,6 +20,8 @@ from rosidl_parser.definition import (
 )
 import yaml
 
+from amr_description.ros.message_fields import of_numpy
+
 _CUT = '...'
 _KEPT = 200  # letters of a string whose text in YAML is kept for the next message
 
@@ -155,17 +157,6 @@ def to_csv(message: Any, style: Style = Style()) -> str:  # noqa: B008 (frozen)
 def _mapping(message: Any, style: Style) -> dict[str, Any]:
     slots = zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True)
     return {name: _plain(getattr(message, name), slot, style) for name, slot in slots}
-
-
-def of_numpy(value: Any, kind: str) -> bool:
-    """
-    Whether a value is of a class of numpy.
-
-    numpy takes a third of the start of ``ros2 topic echo``; only messages with arrays of fixed
-    length load it.
-    """
-    numpy = sys.modules.get('numpy')
-    return numpy is not None and isinstance(value, getattr(numpy, kind))
 
 
 def _is_array(value: Any) -> bool:

@@ -37,8 +37,9 @@ _SIMULATOR = (
     "'ros2 run amr_description mujoco_sim'"
 )
 _NAVIGATION = (
-    'it runs on a machine with ROS 2 Jazzy beside the simulator, which it finds with '
-    "'ros2 launch --discovery subnet amr_description simulation' (docs/two_machines.md)"
+    'it runs on a machine with ROS 2 Jazzy beside the simulator, where '
+    "'ros2 launch --discovery subnet amr_description navigation' has all that it asks for "
+    '(docs/navigation.md)'
 )
 _TELEOP = (
     "'ros2 run teleop_twist_keyboard teleop_twist_keyboard', or the page of the viewer, drives"
@@ -50,6 +51,7 @@ INSTEAD_OF_PACKAGES = {
         "its sliders are on the page of 'ros2 launch amr_description display'"
     ),
     'nav2_bringup': _NAVIGATION,
+    'navigation2': _NAVIGATION,
     'ros_gz_bridge': (
         'no bridge is needed: the simulator publishes /clock, joint states, odometry and TF as '
         "ROS topics, and hears commands from them; see 'ros2 topic list'"

@@ -34,8 +34,11 @@ STAND_INS = {
     ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',
     ('demo_nodes_py', 'talker'): 'talker --ros-args -r __node:=talker -r topic:=chatter',
     ('joint_state_publisher', 'joint_state_publisher'): 'joint_state_publisher',
+    ('nav2_map_server', 'map_saver_cli'): 'map_saver_cli',
+    ('nav2_map_server', 'map_server'): 'map_server',
     ('py_pubsub', 'listener'): 'listener',
     ('py_pubsub', 'talker'): 'talker',
+    ('robot_localization', 'ekf_node'): 'ekf_node',
     ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
     ('ros_gz_sim', 'create'): 'create',
     ('teleop_twist_keyboard', 'teleop_twist_keyboard'): 'teleop_twist_keyboard',
@@ -43,6 +46,7 @@ STAND_INS = {
     ('tf2_ros', 'tf2_echo'): 'tf2_echo',
     ('tf2_ros', 'tf2_monitor'): 'tf2_monitor',
     ('tf2_tools', 'view_frames'): 'view_frames',
+    ('twist_mux', 'twist_mux'): 'twist_mux',
     ('xacro', 'xacro'): 'xacro',
 }
 

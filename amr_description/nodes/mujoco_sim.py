@@ -12,6 +12,8 @@ of ``simulation_interfaces``, below ``/mujoco_sim/``::
                                           sim/ros/simulation_services.py
     ~/get_available_worlds …              sim/ros/simulation_services.py
 
+Robots are pushed by ``~/wrench`` (sim/ros/wrench_topics.py).
+
 It publishes its static surroundings as markers on ``~/world`` (sim/ros/world_markers.py), and on
 ``~/received`` which commands have arrived (control/ros/loop_publisher.py).
 """
@@ -43,7 +45,8 @@ from amr_description.sim.ros.simulation import (
 )
 from amr_description.sim.ros.simulation_services import SimulationServices, WorldServices
 from amr_description.sim.ros.spawn_services import SpawnServices
-from amr_description.sim.ros.world_markers import publish_world
+from amr_description.sim.ros.world_markers import WorldPublisher
+from amr_description.sim.ros.wrench_topics import WrenchTopics
 from amr_description.streams import never_wait_for_stderr
 
 FEATURES = (
@@ -69,7 +72,10 @@ class MujocoSim:
         SpawnServices(self.node, self.simulation)
         EntityServices(self.node, self.simulation)
         WorldServices(self.node, self.simulation)
-        publish_world(self.node, self.simulation.world)
+        WrenchTopics(self.node, self.simulation)
+        surroundings = WorldPublisher(self.node, self.simulation.world)
+        surroundings.publish()
+        self.simulation.on_world = surroundings.publish
         self._services = SimulationServices(
             self.node, self.simulation, FEATURES, spawn_services.SPAWN_FORMATS
         )

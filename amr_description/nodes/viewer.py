@@ -14,6 +14,7 @@ subscribes ``robot_description``               model, meshes, findings of check_
 subscribes ``joint_states``, odometry          states
 subscribes ``ground_truth/odom``, ``…/wheels`` states: ground truth of the simulator
 both       the command topic                   driving: Twist or TwistStamped, as subscribed
+publishes  ``emergency_stop``                  STOP: true 10 times per second, false once released
 publishes  ``…/set_joint_positions``           sliders, if joint_state_publisher runs
 subscribes ``~/introspection_data/…`` of its   states: commanded joint velocities
            manager
@@ -23,6 +24,9 @@ subscribes ``/tf``, ``/tf_static``, ``/clock``,
            ``/diagnostics``, ``~/activity`` of
            managers, ``~/world`` of simulators
 ========== =================================== ================================================
+
+For each robot that a page spawns there is a ``robot_state_publisher`` in its namespace, which
+publishes its description and the transforms of its links until the robot is deleted.
 
 While no page is open, nothing is subscribed. Commands are stamped with the time of ``/clock`` if
 it is published, whatever ``use_sim_time`` is.
@@ -39,8 +43,11 @@ import secrets
 import sys
 
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity, set_logger_level
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
+from amr_description.nodes.robot_state_publisher import RobotStatePublisher
 from amr_description.parameters import parameter
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
@@ -100,7 +107,7 @@ def view(args: list[str] | None) -> None:
 def _backend(node: Node, executor: SingleThreadedExecutor) -> GraphBackend:
     """Create the backend and its server. Raises AmrError."""
     settings = declare(node, ViewerSettings)
-    backend = GraphBackend(node, executor, node.get_logger().error)
+    backend = GraphBackend(node, executor, node.get_logger().error, _publish_description)
     backend.server = Server(
         ServerSettings(
             host=settings.host,
@@ -114,6 +121,19 @@ def _backend(node: Node, executor: SingleThreadedExecutor) -> GraphBackend:
         node.get_logger().error,
     )
     return backend
+
+
+def _publish_description(namespace: str, urdf: str) -> Node:
+    """Return a robot_state_publisher in simulated time; it logs warnings only. Raises AmrError."""
+    prefix = namespace.strip('/')
+    name = f'{prefix.replace("/", ".")}.robot_state_publisher'
+    set_logger_level(name, LoggingSeverity.WARN)
+    overrides = {'robot_description': urdf, 'frame_prefix': f'{prefix}/', 'use_sim_time': True}
+    return RobotStatePublisher(
+        namespace=namespace,
+        use_global_arguments=False,  # they are for the viewer
+        parameter_overrides=[Parameter(key, value=value) for key, value in overrides.items()],
+    )
 
 
 def _version() -> str:

@@ -20,7 +20,7 @@ from rclpy.serialization import deserialize_message
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
-from amr_description.model.sensors import Camera, ContactSensor, Lidar, WorldSensor
+from amr_description.model.sensors import Camera, WorldSensor
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
@@ -227,17 +227,6 @@ def _header_of(message: Any) -> tuple[float, str]:
 def _topics_of(sensors: Sequence[WorldSensor], namespace: str) -> Iterator[tuple[str, str]]:
     """Yield (topic, its type) of the sensors of a robot."""
     for sensor in sensors:
-        found: list[tuple[str, str]] = []
-        if isinstance(sensor, Lidar):
-            found = [(sensor.scan_topic, _SCAN), (sensor.points_topic, _CLOUD)]
-        elif isinstance(sensor, Camera):
-            found = [
-                (sensor.image_topic, _IMAGE),
-                (sensor.depth_topic, _DEPTH),
-                (sensor.points_topic, _CLOUD),
-            ]
-        elif isinstance(sensor, ContactSensor):
-            found = [(sensor.topic, sensor.message)]
-        for name, kind in found:
-            if name:
-                yield sensor.mount.full_name(name, namespace), kind
+        depth = sensor.depth_topic if isinstance(sensor, Camera) else None
+        for name, kind in sensor.topics:
+            yield sensor.mount.full_name(name, namespace), _DEPTH if name == depth else kind

@@ -6,6 +6,7 @@ STACKS = {
     'display': 'amr_description.bringup.stacks.display:display',
     'fleet': 'amr_description.bringup.stacks.fleet:fleet',
     'mock': 'amr_description.bringup.stacks.hardware:mock',
+    'navigation': 'amr_description.bringup.stacks.navigation:navigation',
     'serial': 'amr_description.bringup.stacks.hardware:serial',
     'simulation': 'amr_description.bringup.stacks.simulation:simulation',
     'teleop': 'amr_description.bringup.stacks.teleop:teleop',

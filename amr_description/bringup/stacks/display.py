@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stack ``display``: look at a description and move its joints; nothing is simulated."""
 
+import shlex
 from typing import Annotated
 from xml.etree import ElementTree
 
@@ -16,6 +17,7 @@ def display(
     urdf: Annotated[str, 'robot description, URDF or xacro'] = URDF,
     xacro_args: Annotated[str, 'arguments of a xacro file: name:=value …'] = '',
     sensors: Annotated[bool, ABOUT_SENSORS] = False,
+    reload: Annotated[bool, 'show each change of the description when its file is saved'] = True,
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
 ) -> Stack:
     """The robot of a description, with a slider for every movable joint."""
@@ -27,6 +29,13 @@ def display(
         'robot_state_publisher', parameters=[{'robot_description': description}]
     )
 
+    # … and again whenever a file of it is saved.
+    watcher = Node(
+        'description_watcher',
+        arguments=[path_of(urdf), *shlex.split(xacro_args)],
+        required=False,
+    )
+
     # 2. The joint positions, set by sliders.
     joint_state_publisher = Node('joint_state_publisher')
 
@@ -35,6 +44,7 @@ def display(
         [
             robot_state_publisher,
             joint_state_publisher,
+            *([watcher] if reload else []),
             *page(viewer, started(joint_state_publisher)),
             *rviz('display'),
         ],

@@ -16,7 +16,12 @@ from amr_description.bringup import (
     robot_description,
     Stack,
 )
-from amr_description.bringup.controller_files import ABOUT_SENSORS, URDF, with_sensors
+from amr_description.bringup.controller_files import (
+    ABOUT_SENSORS,
+    URDF,
+    URDF_WITH_SENSORS,
+    with_sensors,
+)
 from amr_description.bringup.description import ParameterValue
 from amr_description.bringup.stacks.controllers import (
     ABOUT_ACTIVATE,
@@ -42,6 +47,10 @@ ABOUT_STRICT = 'whether a robot that has to be taken as something else is refuse
 ABOUT_BRIDGE = 'configuration file of ros_gz_bridge, by which topics of Gazebo are called'
 ABOUT_MOCKS = 'mock_components is simulated as other hardware (simulate), or stays a mock (mock)'
 ABOUT_RENDERER = 'what makes pictures of cameras: OpenGL (gl), rays, or OpenGL if it works (auto)'
+ABOUT_EKF = 'whether amr has its odom -> base_footprint from wheels and IMU, by ekf_node'
+_EKF = 'package://amr_description/config/ekf.yaml'
+_CONTROLLERS_BESIDE_EKF = 'package://amr_description/config/controllers_ekf.yaml'
+"""Those of amr, which leave the transform to ekf_node."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +59,8 @@ class SimulatedRobot(Stack):
 
     velocity_topic: VelocityTopic | None = None
     """None: nothing drives it."""
+    description: str = ''
+    """Its URDF."""
 
 
 def simulation(
@@ -73,9 +84,11 @@ def simulation(
     mock_hardware: Annotated[str, ABOUT_MOCKS] = 'simulate',
     bridge: Annotated[str, ABOUT_BRIDGE] = '',
     camera_renderer: Annotated[str, ABOUT_RENDERER] = 'auto',
+    ekf: Annotated[bool, ABOUT_EKF] = False,
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
-    urdf = with_sensors(urdf, sensors)
+    controllers, filters = _filter(ekf, urdf, controllers)
+    urdf = with_sensors(urdf, sensors or ekf)
     description = robot_description(urdf, xacro_args)
     if fixed:
         description = _fixed(description, urdf)
@@ -87,29 +100,41 @@ def simulation(
     mujoco_sim = _simulator(world, rtf, paused, plan.parameter, options)
 
     # 2. The URDF, published as /robot_description and as transforms.
-    robot_state_publisher = Node(
-        'robot_state_publisher',
-        parameters=[{'robot_description': description, 'use_sim_time': True}],
-    )
+    published: dict[str, ParameterValue] = {'robot_description': description, 'use_sim_time': True}
+    robot_state_publisher = Node('robot_state_publisher', parameters=[published])
 
     # 3. The robot is spawned; its <ros2_control> block brings up /controller_manager.
     name = name or entity_name(description)
-    create = Node(
-        'create',
-        arguments=['-topic', 'robot_description', '-name', name, *_pose(name, x, y, z, yaw)],
-    )
+    words = ['-topic', 'robot_description', '-name', name, *_pose(name, x, y, z, yaw)]
+    create = Node('create', arguments=words)
 
     # 4. The controllers, one after the other, once there is a controller manager.
     controlled = spawners(plan, exited_cleanly(create))
 
     up = exited_cleanly(controlled[-1] if controlled else create)
     return SimulatedRobot(
-        [mujoco_sim, robot_state_publisher, create, *controlled, *page(viewer, up)],
+        [mujoco_sim, robot_state_publisher, create, *controlled, *filters, *page(viewer, up)],
         ready_when=up,
         next_steps=next_steps_of(viewer, plan, description),
         notes=[*notes_on([path_of(urdf), *plan.files]), *plan.notes],
         velocity_topic=velocity_topic(plan),
+        description=description,
     )
+
+
+def _filter(ekf: bool, urdf: str, controllers: str) -> tuple[str, list[Node]]:
+    """Return the parameter file of the controllers, and ekf_node if it is wanted."""
+    if not ekf:
+        return controllers, []
+    if urdf not in (URDF, URDF_WITH_SENSORS) or controllers:
+        given = f'controllers:={controllers}' if controllers else f'urdf:={urdf}'
+        raise UsageError(
+            f'ekf:=true is for amr and its controllers; with {given}, set enable_odom_tf: false '
+            "there, and start 'ros2 run robot_localization ekf_node --ros-args -p "
+            "use_sim_time:=true --params-file FILE' beside it"
+        )
+    filtering = Node('ekf_node', parameters=[str(path_of(_EKF)), {'use_sim_time': True}])
+    return _CONTROLLERS_BESIDE_EKF, [filtering]
 
 
 # Parameters of the simulator with the values that they have there when they are not given.

@@ -68,10 +68,10 @@ def main(args: Namespace) -> int:
     from rclpy.action import ActionClient
 
     from amr_description.cli.discovery import is_there_within
-    from amr_description.cli.message_fields import set_fields
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_value
+    from amr_description.ros.message_fields import set_fields
     from amr_description.ros.message_types import action_type
 
     action_class = action_type(args.action_type)

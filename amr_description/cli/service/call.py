@@ -56,10 +56,10 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Print request and response, once or until Ctrl-C; 0 if done."""
-    from amr_description.cli.message_fields import set_fields
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_value
+    from amr_description.ros.message_fields import set_fields
     from amr_description.ros.message_types import service_type
 
     if args.rate is not None and not 0.0 < args.rate < float('inf'):

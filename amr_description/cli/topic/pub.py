@@ -115,11 +115,11 @@ def main(args: Namespace) -> int:
     from rclpy.duration import Duration
 
     from amr_description.cli import qos
-    from amr_description.cli.message_fields import set_fields
     from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_mapping
+    from amr_description.ros.message_fields import set_fields
     from amr_description.ros.message_types import message_type
 
     times = 1 if args.once else args.times
