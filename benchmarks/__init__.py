@@ -28,6 +28,7 @@ What ``scripts/bench`` (``python -m benchmarks``) measures; not installed.
 ``sensors.py``                  what lidars and cameras take
 ``command_line.py``            the ``ros2`` command
 ``robot_state_publisher.py``   rate and load of robot_state_publisher
+``page.py``                    many pages, plots, and the page in a browser
 ``viewer.py``                  load of the page's node, delay from a key to the command
 ``churn.py``                   readers that are killed, for the tests
 =============================  ===================================================================

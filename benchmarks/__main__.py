@@ -125,6 +125,12 @@ class Bench:
             )
         return Figures({})
 
+    def page(self) -> Figures:
+        """The page: many of them, plots, and what a browser makes of it."""
+        from benchmarks.page import page_figures
+
+        return page_figures(self._node, self._seconds)
+
     def robot_state_publisher(self) -> Figures:
         """robot_state_publisher alone."""
         from benchmarks.robot_state_publisher import transform_figures

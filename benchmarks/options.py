@@ -11,6 +11,7 @@ PARTS = (
     'speed',
     'latency',
     'stack',
+    'page',
     'robot_state_publisher',
     'fleet',
     'fleet_start',

@@ -45,16 +45,16 @@ def viewer_figures(node: Node, seconds: float, *, quick: bool = False) -> Figure
         for count in (1,) if quick else (1, 5):
             with ExitStack() as stack, driving(node):
                 pages = [stack.enter_context(PageClient(url)) for _ in range(count)]
-                rate, load = _measured(node, pages, process.pid, seconds)
-            values.setdefault('page', load)
+                rate, share = load(node, pages, process.pid, seconds)
+            values.setdefault('page', share)
             name = f'{count} page{"s" if count > 1 else ""}'
-            lines.append(f'{name:<42}{rate:8.1f} Hz {load:8.1f} % of a core')
+            lines.append(f'{name:<42}{rate:8.1f} Hz {share:8.1f} % of a core')
         if quick:
             return Figures(values, '\n'.join(lines))
         with PageClient(url) as page:
-            delays = _delays(node, page)
-    median, *_ = statistics.quantiles(delays, n=2)
-    late = statistics.quantiles(delays, n=20)[-1]
+            times = delays(node, page)
+    median, *_ = statistics.quantiles(times, n=2)
+    late = statistics.quantiles(times, n=20)[-1]
     name = 'key to command, median and 95th percentile'
     lines.append(f'{name:<42}{1e3 * median:8.1f} ms {1e3 * late:8.1f} ms')
     return Figures(values, '\n'.join(lines))
@@ -80,23 +80,21 @@ def viewer() -> Iterator[tuple[subprocess.Popen[str], str]]:
         process.communicate()
 
 
-def _measured(
-    node: Node, pages: list[PageClient], pid: int, seconds: float
-) -> tuple[float, float]:
+def load(node: Node, pages: list[PageClient], pid: int, seconds: float) -> tuple[float, float]:
     """Return states per second and page (Hz), and the load of the process (%)."""
-    _wait(node, lambda: all(page.states for page in pages) and _topic(pages[0]))
+    wait(node, lambda: all(page.states for page in pages) and _topic(pages[0]))
     settled = time.monotonic() + seconds / 4  # after one-time work, such as reading the model
-    _wait(node, lambda: time.monotonic() >= settled, seconds)
+    wait(node, lambda: time.monotonic() >= settled, seconds)
     states, spent, begin = sum(p.states for p in pages), processor_time(pid), time.monotonic()
-    _wait(node, lambda: time.monotonic() >= begin + seconds, seconds)
+    wait(node, lambda: time.monotonic() >= begin + seconds, seconds)
     elapsed = time.monotonic() - begin
     rate = (sum(p.states for p in pages) - states) / len(pages) / elapsed
     return rate, 100.0 * (processor_time(pid) - spent) / elapsed
 
 
-def _delays(node: Node, page: PageClient) -> list[float]:
+def delays(node: Node, page: PageClient) -> list[float]:
     """Return the delays from sending a key on a page to the command's callback, s."""
-    _wait(node, lambda: _topic(page))
+    wait(node, lambda: _topic(page))
     sent: dict[int, float] = {}
     received: dict[int, float] = {}
 
@@ -105,11 +103,11 @@ def _delays(node: Node, page: PageClient) -> list[float]:
 
     subscription = node.create_subscription(TwistStamped, _topic(page), on_command, 100)
     try:
-        _wait(node, lambda: page.send('drive', robot='/', linear=0.0, angular=0.0) or received)
+        wait(node, lambda: page.send('drive', robot='/', linear=0.0, angular=0.0) or received)
         for number in range(1, _KEYS + 1):
             sent[number] = time.monotonic()
             page.send('drive', robot='/', linear=0.0, angular=number * _STEP)
-            _wait(node, lambda number=number: number in received)
+            wait(node, lambda number=number: number in received)
         page.send('stop', robot='/')
     finally:
         node.destroy_subscription(subscription)
@@ -122,7 +120,7 @@ def _topic(page: PageClient) -> str:
     return commands[0]['topic'] if commands and commands[0] else ''
 
 
-def _wait(node: Node, condition: Callable[[], object], seconds: float = 0.0) -> None:
+def wait(node: Node, condition: Callable[[], object], seconds: float = 0.0) -> None:
     """Spin the node until a condition holds. Raises ViewerError: it does not in time."""
     timeout = seconds + _TIMEOUT
     if wait_until(node, lambda: True if condition() else None, timeout=timeout) is None:

@@ -11,13 +11,14 @@ import math
 import os
 from pathlib import Path
 import secrets
+import shutil
 import signal
 import sys
 import tempfile
 
 from hypothesis import settings
 import pytest
-from support import failures, ordering, preloaded
+from support import failures, forked_workers, ordering, preloaded
 
 from amr_description.testing import program
 from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
@@ -50,6 +51,13 @@ def pytest_addoption(parser):
         help='files, and the tests in each, in random order; without a seed a new one, printed',
     )
     parser.addoption(
+        '--workers',
+        metavar='N',
+        type=lambda text: text if text == 'auto' else int(text),
+        default=0,
+        help='run whole files in N processes, the longest first; auto: as many as are of use',
+    )
+    parser.addoption(
         '--long', action='store_true', help='also what is worth an hour: tests marked long'
     )
 
@@ -62,61 +70,67 @@ def pytest_configure(config):
     config.addinivalue_line('markers', 'long: takes minutes, and runs with --long only')
     if config.option.long:
         settings.load_profile('long')
-    if is_worker(config):
-        config.option.random_order = config.workerinput['seed']
-    elif config.option.random_order == '':
+    if config.option.random_order == '':
         config.option.random_order = secrets.token_hex(4)
-    if has_workers(config) or not is_worker(config):
-        KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)
-        config.pluginmanager.register(Recording(config))
+    if config.option.workers == 'auto':
+        config.option.workers = suitable_workers(config)
+    if config.option.workers:
+        plugin = forked_workers.ForkedWorkers(
+            config.option.workers,
+            lambda number: begin_worker(config, number),
+            give_back,
+            ordering.groups,
+        )
+        config.pluginmanager.register(plugin)
+    KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)
+    config.pluginmanager.register(Recording(config))
     # A background job starts with Ctrl-C ignored, which every child would inherit.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    if has_workers(config):
-        return  # it starts no test; each worker finds the shell's domain forbidden, and takes one
-    domain, KEPT['lock'] = take_domain()
-    KEPT['logs'] = tempfile.TemporaryDirectory(prefix='amr-test-logs-')
+    take_ros_of_its_own()
     prefixes = [str(ROOT / 'install' / 'amr_description'), sys.prefix]
     known = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
     for variable in WAYS_TO_OTHERS:
         os.environ.pop(variable, None)
     os.environ |= {
-        'ROS_DOMAIN_ID': str(domain),
         'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'ROS_LOG_DIR': KEPT['logs'].name,
         'AMENT_PREFIX_PATH': os.pathsep.join(
             dict.fromkeys(prefix for prefix in (*prefixes, *known) if prefix)
         ),
     }
 
 
-def has_workers(config):
-    """Whether this process only hands tests out to others, those of pytest-xdist (``-n``)."""
-    return bool(config.getoption('numprocesses', None))
+def take_ros_of_its_own():
+    """Give this process a domain in which nobody is, and a folder of logs."""
+    domain, KEPT['lock'] = take_domain()
+    KEPT['logs'] = tempfile.mkdtemp(prefix='amr-test-logs-')
+    os.environ |= {'ROS_DOMAIN_ID': str(domain), 'ROS_LOG_DIR': KEPT['logs']}
 
 
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_auto_num_workers(config):
+def give_back():
+    """Remove the logs, and leave the domain to others."""
+    shutil.rmtree(KEPT['logs'])
+    os.close(KEPT['lock'])
+
+
+def begin_worker(config, number):
+    """Give a worker what it may not share with others."""
+    # In a folder with those of all tests, pytest would look through thousands for each.
+    factory = config._tmp_path_factory
+    factory._basetemp = factory.getbasetemp() / f'worker-{number}'
+    factory._basetemp.mkdir(mode=0o700, exist_ok=True)
+    os.close(KEPT['lock'])  # the parent still has it, and its logs
+    take_ros_of_its_own()
+
+
+def suitable_workers(config):
     """
-    How many processes ``-n auto`` is: five for two cores, as they wait for others half of the
-    time. What is in ``test/unit`` waits for nobody: one for each core, each more would only
-    collect all of it once more.
+    How many processes ``--workers=auto`` is: five for two cores, as they wait for others half of
+    the time. What is in ``test/unit`` waits for nobody: one for each core.
     """
     paths = [(config.invocation_params.dir / arg.split('::')[0]) for arg in config.args]
     is_waiting = not all(path.resolve().is_relative_to(UNIT) for path in paths)
     return round(len(os.sched_getaffinity(0)) * (2.5 if is_waiting else 1))
-
-
-def is_worker(config):
-    """Whether this process is one of several that run tests."""
-    return hasattr(config, 'workerinput')
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_configure_node(node):
-    """Tell a worker the seed, and how long files take: all must have the same order of tests."""
-    node.workerinput['seed'] = node.config.option.random_order
-    node.workerinput['durations'] = KEPT['durations']
 
 
 @pytest.hookimpl(tryfirst=True)  # pytest then brings together what shares a costly parameter
@@ -128,8 +142,8 @@ def pytest_collection_modifyitems(config, items):
             items[:] = [item for item in items if item not in long]
     if seed := config.option.random_order:
         items.sort(key=lambda item: ordering.random_place(item, seed))
-    elif is_worker(config):
-        table = config.workerinput['durations']
+    elif config.option.workers:
+        table = KEPT['durations']
         durations = {path: ordering.duration_of(path, table) for path in {i.path for i in items}}
         for item in items:  # here only with --long
             if item.get_closest_marker('long'):
@@ -182,7 +196,7 @@ def pytest_collection_finish():
 
 
 def pytest_report_header(config):
-    domain = 'of each worker' if has_workers(config) else os.environ['ROS_DOMAIN_ID']
+    domain = 'of each worker' if config.option.workers else os.environ['ROS_DOMAIN_ID']
     return [f'ROS_DOMAIN_ID={domain}, LOCALHOST', *order_notes(config)]
 
 
@@ -197,7 +211,5 @@ def order_notes(config):
     return []
 
 
-def pytest_unconfigure(config):
-    if not has_workers(config):
-        KEPT['logs'].cleanup()
-        os.close(KEPT['lock'])
+def pytest_unconfigure():
+    give_back()

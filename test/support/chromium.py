@@ -37,6 +37,11 @@ _FLAGS = (
 )  # fmt: skip
 FEW_PIXELS = 0.25
 """Pixels to a CSS pixel, each of them drawn by the processor: for tests that look at none."""
+_FEW_FRAMES = """
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100);
+window.cancelAnimationFrame = clearTimeout;
+"""
+"""Ten frames a second instead of sixty, which the processor draws: to drive a robot by."""
 _MODIFIERS = {'Alt': 1, 'Control': 2, 'Meta': 4, 'Shift': 8}
 
 
@@ -114,11 +119,12 @@ class Chromium:
             self._rest.join(PATIENCE)
         self._profile.cleanup()
 
-    def open(self, url, *, pixels=FEW_PIXELS, is_beside=False, **look):
+    def open(self, url, *, pixels=FEW_PIXELS, every_frame=False, is_beside=False, **look):
         """
         Open a page in a tab of its own, and wait until it is loaded.
 
         :param pixels: To a CSS pixel.
+        :param every_frame: Draw as often as the page wants to; else ten times a second.
         :param is_beside: In a window of its own, which costs half a second of CPU; else the tabs
             behind this one are hidden, and not drawn, until it is closed.
         :param look: As of :meth:`Page.look_like`.
@@ -131,6 +137,8 @@ class Chromium:
         self._pages[attached['sessionId']] = page
         for domain in ('Page', 'Runtime', 'Network', 'Log'):
             page.call(f'{domain}.enable')
+        if not every_frame:
+            page.call('Page.addScriptToEvaluateOnNewDocument', {'source': _FEW_FRAMES})
         page.look_like(**look)
         page.go(url)
         return page
@@ -185,6 +193,7 @@ class Page:
         """What the console shows in red: errors and uncaught exceptions."""
         self.requests = []
         """Every URL that was asked for, WebSockets too."""
+        self._snapshot = []
         OPEN_PAGES.add(self)
 
     def call(self, method, params=None):
@@ -199,6 +208,8 @@ class Page:
             self.requests.append(params['request']['url'])
         elif method == 'Network.webSocketCreated':
             self.requests.append(params['url'])
+        elif method == 'HeapProfiler.addHeapSnapshotChunk':
+            self._snapshot.append(params['chunk'])
         elif method == 'Runtime.exceptionThrown':
             self.errors.append(str(params['exceptionDetails'].get('exception')))
         elif method == 'Runtime.consoleAPICalled' and params['type'] in ('error', 'assert'):
@@ -238,6 +249,24 @@ class Page:
             thrown = details.get('exception', {}).get('description') or details['text']
             raise BrowserError(f'{expression}: {thrown}')
         return answer['result'].get('value')
+
+    def held_bytes(self):
+        """
+        Return what the page holds on to: its script's objects and buffers, and the document.
+
+        Compiled code is left out: the engine adds a megabyte of it in the first minute, as it
+        learns what is called often.
+        """
+        self._snapshot.clear()
+        self.call('HeapProfiler.takeHeapSnapshot')  # which collects garbage first
+        heap = json.loads(''.join(self._snapshot))
+        self._snapshot.clear()
+        meta, nodes = heap['snapshot']['meta'], heap['nodes']
+        fields, kinds = meta['node_fields'], meta['node_types'][0]
+        count, code = len(fields), kinds.index('code')
+        types = nodes[fields.index('type') :: count]
+        sizes = nodes[fields.index('self_size') :: count]
+        return sum(size for kind, size in zip(types, sizes, strict=True) if kind != code)
 
     def wait_until(self, expression):
         """Wait until a JavaScript expression is true, and return its value."""
@@ -303,13 +332,13 @@ class Page:
             }})()"""
         )
 
-    def mouse(self, kind, x, y):
+    def mouse(self, kind, x, y, modifiers=()):
         """Move, press or release the left button: ``mouseMoved``, ``mousePressed``, …"""
         is_pressed = kind != 'mouseReleased'
         self.call(
             'Input.dispatchMouseEvent',
             {'type': kind, 'x': x, 'y': y, 'button': 'left', 'buttons': int(is_pressed),
-             'clickCount': 1},
+             'clickCount': 1, 'modifiers': sum(_MODIFIERS[name] for name in modifiers)},
         )  # fmt: skip
         if kind == 'mousePressed':
             self._pressed = (x, y)

@@ -9,7 +9,7 @@ a fresh clone has. It is about time only: a wrong line makes a run longer, never
 """
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 import contextlib
 import hashlib
 import json
@@ -25,11 +25,16 @@ SEED_TABLE = TESTS / 'durations.json'
 OWN_TABLE = ROOT / 'build' / 'tests' / 'durations.json'
 
 
+SHARED_FIXTURES = ('browser',)
+"""Those of a session that cost more than most tests: all files that use one run in one worker."""
+
+
 class Item(Protocol):
     """What is used here of a ``pytest.Item``."""
 
     path: Path
     nodeid: str
+    fixturenames: Sequence[str]
 
     def get_closest_marker(self, name: str) -> object | None:
         """Return the nearest mark of that name."""
@@ -48,6 +53,18 @@ def random_place(item: Item, seed: str) -> tuple[bytes, bytes]:
 
     within = b'' if item.get_closest_marker('in_order') else chance(item.nodeid)
     return chance(item.path.name), within
+
+
+def groups(items: Iterable[Item]) -> list[Path | str]:
+    """Return for each test which ones run in the same process: its file, or what files share."""
+    items = [*items]
+    sharing = {
+        item.path: fixture
+        for item in items
+        for fixture in SHARED_FIXTURES
+        if fixture in item.fixturenames
+    }
+    return [sharing.get(item.path, item.path) for item in items]
 
 
 def read_durations(*tables: Path) -> dict[str, float]:

@@ -12,10 +12,10 @@ from support.ros_processes import PATIENCE
 from websockets.exceptions import ConnectionClosed
 
 from amr_description.viewer.client import page_socket
-from amr_description.viewer.protocol import SUBPROTOCOL
+from amr_description.viewer.protocol import PROTOCOL
 
 
-def open_socket(url, subprotocols=(SUBPROTOCOL,), **options):
+def open_socket(url, subprotocols=(PROTOCOL,), **options):
     """The WebSocket of the page at this address, a context manager."""
     return page_socket(url, subprotocols, open_timeout=PATIENCE, **options)
 
@@ -28,7 +28,7 @@ def deaf(url):
         (
             f'GET /ws HTTP/1.1\r\nHost: {parts.netloc}\r\nUpgrade: websocket\r\n'
             'Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n'
-            f'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {SUBPROTOCOL}\r\n\r\n'
+            f'Sec-WebSocket-Version: 13\r\nSec-WebSocket-Protocol: {PROTOCOL}\r\n\r\n'
         ).encode()
     )
     return client

@@ -15,6 +15,9 @@ copy all their memory; and the interpreter of a program of this package is not t
 (``forking.run_to_the_end``). A command that is no Python program, one with options of the
 interpreter, and one whose environment changes the interpreter is started as ever.
 
+A program that tests robots with ``amr_description.testing``, pytest among them, has a server of
+its own, forked before it begins: its simulators are forked too.
+
 ``bringup`` is forked too, and then forks, as its children, what it would start of our Python
 programs: its fork server, its guardian, what watches the graph. So a stack has the processes that
 it always has, and comes up without the 2 s of processor time that imports take.
@@ -70,6 +73,7 @@ amr_description.nodes.spawner numpy rosidl_generator_py std_msgs.msg std_srvs.sr
 _SIMULATOR = 'amr_description.nodes.mujoco_sim'
 _BRINGUP = 'amr_description.bringup.main'
 _BRINGUP_SCRIPT = ('amr_description', 'bringup')
+_TESTING = 'amr_description.testing'
 _STACKS = f"""
 {_SIMULATOR} {_BRINGUP} amr_description.nodes.create amr_description.nodes.graph_watch
 amr_description.nodes.joint_state_publisher amr_description.nodes.robot_state_publisher
@@ -170,7 +174,17 @@ def _program(args):
 
 def _is_large(program):
     """Whether the server of whole stacks has what it loads."""
-    return _is_bringup(program) or not _WITH_MUCH_TO_LOAD.isdisjoint(program[1:2])
+    return (
+        _is_bringup(program)
+        or _tests_robots(program)
+        or not _WITH_MUCH_TO_LOAD.isdisjoint(program[1:2])
+    )
+
+
+def _tests_robots(program):
+    """Whether it may start simulators by ``amr_description.testing``."""
+    text = os.fsdecode([*program, ''][1])
+    return program[0] in ('-m', '-c') and (text == 'pytest' or _TESTING in text)
 
 
 def _is_ours(program):
@@ -198,27 +212,29 @@ def _is_plain(variables):
 
 @functools.cache
 def _server(modules):
-    return _Server(modules)
+    """Start a server that has loaded modules."""
+    ours, theirs = socket.socketpair()
+    variables = {key: each for key, each in os.environ.items() if key != 'PYTHONPATH'}
+    subprocess.Popen(
+        [sys.executable, '-c', _SERVER, str(theirs.fileno()), *modules.split(), ' ' * _ROOM],
+        # OpenBLAS's threads do not outlive a fork, and its end waits for them.
+        env=variables | {'OPENBLAS_NUM_THREADS': '1', 'ROOM': ' ' * _ROOM},
+        cwd=ROOT,
+        pass_fds=[theirs.fileno()],
+        stdin=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    theirs.close()
+    return _Server(ours)
 
 
 class _Server:
-    """The test's side of the interpreter that is forked; it ends with the test run."""
+    """The test's side of the interpreter that is forked; it ends with this process."""
 
-    def __init__(self, modules):
+    def __init__(self, connection):
         self._lock = threading.Lock()
         self._libc = ctypes.CDLL(None, use_errno=True)
-        self._socket, theirs = socket.socketpair()
-        variables = {key: each for key, each in os.environ.items() if key != 'PYTHONPATH'}
-        subprocess.Popen(
-            [sys.executable, '-c', _SERVER, str(theirs.fileno()), *modules.split(), ' ' * _ROOM],
-            # OpenBLAS's threads do not outlive a fork, and its end waits for them.
-            env=variables | {'OPENBLAS_NUM_THREADS': '1', 'ROOM': ' ' * _ROOM},
-            cwd=ROOT,
-            pass_fds=[theirs.fileno()],
-            stdin=subprocess.DEVNULL,
-            start_new_session=True,
-        )
-        theirs.close()
+        self._socket = connection
 
     def start(self, request, files):
         """Have a program forked that becomes a child of this process; return its pid."""
@@ -263,6 +279,34 @@ def _serve(connection, tracing):
         connection.sendall(os.read(reader, _PID.size))
         os.close(reader)
         os.close(writer)
+
+
+def _fork_server(tracing):
+    """
+    Fork a server of the simulators that this program will start, and have it use that.
+
+    Returns:
+        None; in each of those simulators, what it is asked to be.
+    """
+    ours, theirs = socket.socketpair()
+    tracing.before_fork()
+    if os.fork():
+        tracing.after_fork_in_parent()
+        theirs.close()
+        own = _Server(ours)
+        global _server
+        _server = lambda _modules: own  # noqa: E731
+        start_for(importlib.import_module(f'{_TESTING}.program'))
+        return None
+    tracing.after_fork_in_child()
+    os.setsid()  # Ctrl-C is for the program
+    nothing = os.open(os.devnull, os.O_RDWR)
+    _take_files({0: nothing, 1: nothing, 2: nothing, theirs.fileno(): theirs.fileno()})
+    ours.detach()  # closed with the rest
+    try:
+        return _serve(theirs, tracing)
+    except SystemExit:
+        os._exit(0)  # the program has ended
 
 
 def _become(request, files):
@@ -456,6 +500,10 @@ def serve(base):
         request, files = _serve(connection, tracing)
     _become(request, files)
     tracing.after_fork_in_child()
+    if _tests_robots(request['program']) and (started := _fork_server(tracing)):
+        request, files = started
+        _become(request, files)
+        tracing.after_fork_in_child()
     if _is_bringup(request['program']):
         _fork_from_here(tracing)
     if _is_ours(request['program']):

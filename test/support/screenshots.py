@@ -24,7 +24,7 @@ def page_of(browser, *words, **look):
     """A page over a stack of its own that is up."""
     with own_domain(), Program(BRINGUP, *words) as stack:
         url = stack.expect(r'The page is at (http://\S+)')[1]
-        page = browser.open(url, pixels=1.0, **look)
+        page = browser.open(url, pixels=1.0, every_frame=True, **look)
         page.wait_until("amr.now.link === 'open' && amr.now.states > 5 && amr.now.robot")
         yield page
         page.close()
@@ -89,6 +89,27 @@ def write_sensors(browser, name='sensors', **look):
         (IMAGES / f'{name}.webp').write_bytes(page.picture('webp', quality=72))
 
 
+def write_navigation(browser):
+    """Write the picture of a robot on its way to a goal."""
+    with page_of(browser, 'navigation', 'rtf:=0.5', width=1280, height=800) as page:
+        page.wait_until("amr.now.scene.navigation.maps['/map']")
+        page.wait_until("document.querySelector('.navigation [aria-keyshortcuts=G]')")
+        drag(page, 'canvas.scene', 60, 60)
+        for _ in range(12):  # away from the robot, so that the shelves come into view
+            page.wheel('canvas.scene', 240)
+        frames = page.evaluate('amr.now.scene.frames')
+        page.wait_until(f'amr.now.scene.frames > {frames} + 20')  # the camera has come to rest
+        page.click('.navigation [aria-keyshortcuts=G]')
+        x, y = page.centre_of('.scene')
+        page.mouse('mousePressed', x + 140, y - 110)
+        page.mouse('mouseMoved', x + 190, y - 110)
+        page.mouse('mouseReleased', x + 190, y - 110)
+        page.wait_until("document.querySelector('.goal-words').textContent.match('to go')")
+        begin = page.evaluate('amr.now.time')
+        page.wait_until(f'amr.now.time > {begin + 2.0}')
+        (IMAGES / 'navigation.webp').write_bytes(page.picture('webp', quality=72))
+
+
 def drag(page, selector, right, down):
     """Drag from the middle of an element, pixels."""
     x, y = page.centre_of(selector)
@@ -104,6 +125,7 @@ def main():
     with chromium.Chromium() as browser:
         write_film(browser)
         write_sensors(browser)
+        write_navigation(browser)
         with page_of(browser, 'simulation', 'world:=warehouse') as page:
             drive(page, ('KeyW', 2.0), ('KeyA', 1.0), ('KeyW', 2.0), ('KeyD', 1.5), ('KeyW', 1.0))
             page.screenshot(IMAGES / 'simulation.png')

@@ -6,6 +6,8 @@ from pathlib import Path
 import sys
 import sysconfig
 
+import em
+from hypothesis import given, strategies as st
 from interface_build import (
     BuildError,
     CompilerError,
@@ -191,3 +193,19 @@ def test_what_is_called_is_linked_before_its_caller(folder, tmp_path):
         assert {name for name in job.calls if name.startswith('a_msgs')} <= set(made)
         made.append(job.output.name.removeprefix('lib').removesuffix('.so'))
     assert len(made) == len(libraries.LIBRARIES) + len(libraries.EXTENSIONS)
+
+
+def end_of_expression(function, text, start, skip):
+    scanner = em.Scanner('@', text)
+    scanner.advance(start)
+    try:
+        return function(scanner, '[', ']', 0, None, skip)
+    except em.TransientParseError as error:
+        return str(error)
+
+
+@given(st.text('[]\'"\\x\n', max_size=40), st.integers(0, 40), st.sampled_from([None, '\\']))
+def test_expressions_of_templates_end_where_empy_finds_their_ends(text, start, skip):
+    start = min(start, len(text))
+    expected = end_of_expression(em.Scanner.complex, text, start, skip)
+    assert end_of_expression(generators.end_of_expression, text, start, skip) == expected

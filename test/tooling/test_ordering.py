@@ -26,6 +26,7 @@ class Item:
     file: str
     name: str = 'test'
     marks: tuple[str, ...] = ()
+    fixturenames: tuple[str, ...] = ()
 
     @property
     def path(self):
@@ -39,14 +40,14 @@ class Item:
         return name if name in self.marks else None
 
 
-def in_order(items, seed=None, long=False, **config):
+def in_order(items, seed=None, long=False, workers=0):
     """The items as a run has them."""
     items, deselected = list(items), []
-    config |= {
-        'option': SimpleNamespace(random_order=seed, long=long),
-        'hook': SimpleNamespace(pytest_deselected=lambda items: deselected.extend(items)),
-    }
-    CONFTEST[0].pytest_collection_modifyitems(SimpleNamespace(**config), items)
+    config = SimpleNamespace(
+        option=SimpleNamespace(random_order=seed, long=long, workers=workers),
+        hook=SimpleNamespace(pytest_deselected=lambda items: deselected.extend(items)),
+    )
+    CONFTEST[0].pytest_collection_modifyitems(config, items)
     assert all('long' in item.marks and not long for item in deselected)
     return items
 
@@ -58,17 +59,18 @@ def test_files_stay_as_they_are_in_one_process():
     assert in_order(FILES) == FILES
 
 
-def test_the_longest_files_start_first_where_several_processes_run():
+def test_the_longest_files_start_first_where_several_processes_run(monkeypatch):
     durations = {'unit/test_c.py': 2.0, 'unit/test_e.py': 30, 'moved/test_b.py': 1.5}
-    items = in_order(FILES, workerinput={'durations': durations})
+    monkeypatch.setitem(CONFTEST[0].KEPT, 'durations', durations)
+    items = in_order(FILES, workers=2)
     assert [item.file[-4] for item in items[::6]] == list('ecbadf')
     assert sorted(map(str, items)) == sorted(map(str, FILES))
     assert [item.name for item in items[:6]] == [item.name for item in FILES[:6]]
 
 
-@pytest.mark.parametrize('worker', [{}, {'workerinput': {'durations': {}}}])
-def test_a_seed_gives_the_same_order_in_every_process_and_another_seed_another(worker):
-    order = in_order(FILES, 'a', **worker)
+@pytest.mark.parametrize('workers', [0, 5])
+def test_a_seed_gives_the_same_order_in_every_process_and_another_seed_another(workers):
+    order = in_order(FILES, 'a', workers=workers)
     assert order == in_order(reversed(FILES), 'a')
     assert order != in_order(FILES, 'b') != FILES
     files = [item.file for item in order]
@@ -88,13 +90,21 @@ def test_a_file_whose_tests_build_on_each_other_stays_in_order():
     assert [item.name for item in order] == [item.name for item in items]
 
 
-def test_what_takes_long_runs_only_if_asked_for_and_then_first():
+def test_files_that_share_a_browser_run_in_one_process():
+    page, other = (Item(f'system/test_{name}.py', fixturenames=('browser',)) for name in 'po')
+    items = [page, FILES[0], Item(page.file, 'without_it'), other, FILES[1], FILES[6]]
+    assert ordering.groups(items) == [
+        'browser', FILES[0].path, 'browser', 'browser', FILES[0].path, FILES[6].path
+    ]  # fmt: skip
+
+
+def test_what_takes_long_runs_only_if_asked_for_and_then_first(monkeypatch):
     items = [*FILES, slow := Item('unit/test_f.py', 'test_slow', ('long',))]
     assert in_order(items) == FILES
     assert in_order(items, long=True) == items
-    worker = {'workerinput': {'durations': {'unit/test_e.py': 9.0}}}
-    assert [item.file[-4] for item in in_order(items, **worker)[::6]] == list('eabcdf')
-    order = in_order(items, long=True, **worker)
+    monkeypatch.setitem(CONFTEST[0].KEPT, 'durations', {'unit/test_e.py': 9.0})
+    assert [item.file[-4] for item in in_order(items, workers=2)[::6]] == list('eabcdf')
+    order = in_order(items, long=True, workers=2)
     assert [item.file[-4] for item in order[::7][:2]] == list('fe')
     assert slow in order
 

@@ -206,3 +206,20 @@ def test_what_cannot_be_forked_is_started(command, env, expected):
     assert (
         preloaded.run(command, env=os.environ | env, timeout=PATIENCE).stdout.strip() == expected
     )
+
+
+NESTED = """
+import os, sys
+from amr_description.testing import program
+code = 'import os, sys; print(os.getppid(), "mujoco" in sys.modules, sys.argv[1:])'
+started = program.subprocess.Popen([sys.executable, '-c', code + '#amr_description.testing', 'a'])
+print(os.getpid(), started.wait(), flush=True)
+"""
+
+
+def test_what_a_test_of_robots_starts_is_forked_too_and_is_its_child():
+    done = preloaded.run([sys.executable, '-c', NESTED], timeout=PATIENCE)
+    child, parent = done.stdout.split('\n')[:2]
+    pid, code = parent.split()
+    assert (child, code) == (f"{pid} True ['a']", '0'), done
+    assert done.stderr == ''

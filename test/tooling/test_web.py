@@ -61,6 +61,12 @@ def test_the_page_is_whole():
     assert missing == []
 
 
+def test_the_page_is_small_on_the_wire():
+    texts = [*STATIC.glob('*.js'), *STATIC.glob('*.css')]
+    sizes = {path.name: path.with_name(f'{path.name}.br').stat().st_size for path in texts}
+    assert sum(sizes.values()) <= 260_000, sizes
+
+
 def test_the_page_asks_nobody_else():
     page = (STATIC / 'index.html').read_text()
     style = (STATIC / 'style.css').read_text()
@@ -73,7 +79,7 @@ def test_nothing_of_the_page_stands_inline_where_its_policy_forbids_it():
     assert re.findall(r'<script(?![^>]*\bsrc=)|<style|\sstyle=|\son\w+=', page) == []
 
 
-@pytest.mark.parametrize('package', ['three', 'uplot', 'urdf-loader'])
+@pytest.mark.parametrize('package', ['three', 'uplot', 'urdf-loader', 'preact', '@preact/signals'])
 def test_the_licence_of_what_is_in_the_page_goes_with_it(package):
     texts = (STATIC / 'licenses.txt').read_text()
     assert re.search(rf'^{package} \d+\.', texts, re.MULTILINE)

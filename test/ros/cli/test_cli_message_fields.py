@@ -9,8 +9,8 @@ import pytest
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Bool, Byte, ByteMultiArray, Float64, Int32, String, UInt8, UInt8MultiArray
 
-from amr_description.cli.message_fields import set_fields
 from amr_description.errors import AmrError
+from amr_description.ros.message_fields import set_fields
 
 NOW = Time(sec=7, nanosec=8)
 

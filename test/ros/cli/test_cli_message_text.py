@@ -15,7 +15,6 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Byte, Empty, Float64, String
 import yaml
 
-from amr_description.cli.message_fields import set_fields
 from amr_description.cli.message_text import (
     dump_with_pyyaml,
     dump_yaml,
@@ -23,6 +22,7 @@ from amr_description.cli.message_text import (
     to_csv,
     to_yaml,
 )
+from amr_description.ros.message_fields import set_fields
 
 JOINTS = JointState(name=['a', 'b'], position=[0.0, 1.5])
 JOINTS.header.stamp.sec = 3
@@ -129,9 +129,9 @@ def test_messages_without_fields_and_bytes():
     assert to_csv(Byte(data=b'A')) == "b'A'"
 
 
-@pytest.mark.parametrize('module', ['echo_printer', 'message_fields'])
+@pytest.mark.parametrize('module', ['cli.echo_printer', 'ros.message_fields'])
 def test_numpy_is_loaded_only_for_messages_that_hold_something_of_it(module):
-    code = f'import sys, amr_description.cli.{module}; print("numpy" in sys.modules)'
+    code = f'import sys, amr_description.{module}; print("numpy" in sys.modules)'
     said = subprocess.check_output(
         [sys.executable, '-c', code],  # started: that of support.preloaded has loaded it
         env={**os.environ, 'PYTHONPATH': os.pathsep.join(sys.path)},

@@ -83,6 +83,11 @@ def test_hostile_input_gets_one_line(verb):
 
 def test_a_pipe_shows_lines_at_once_and_may_be_closed(tmp_path):
     line = 'ros2 topic bw /odom | grep --line-buffered messages | head -1; echo ${PIPESTATUS[0]}'
-    report, status = shell(line, tmp_path).stdout.splitlines()
+    result = shell(line, tmp_path)
+    report, status = result.stdout.splitlines()
     assert re.fullmatch(r'[\d.]+ KB/s from \d+ messages', report)
-    assert int(status) == 128 + signal.SIGPIPE
+    assert (int(status), result.stderr) == (128 + signal.SIGPIPE, '')
+    result = shell('ros2 topic hz /odom | head -1; echo ${PIPESTATUS[0]}', tmp_path)
+    report, status = result.stdout.splitlines()
+    assert report.startswith('average rate: ')
+    assert (int(status), result.stderr) == (128 + signal.SIGPIPE, '')

@@ -16,6 +16,7 @@ from geometry_msgs.msg import TwistStamped
 from rclpy.node import Node
 from support.manager_host import PERIOD, ros_in_this_process, running_host
 from support.paths import TESTS
+from support.preloaded import Popen
 
 REQUESTER = TESTS / 'fixtures' / 'nodes' / 'requester.py'
 CLIENTS = 4
@@ -63,7 +64,7 @@ def test_requests_of_four_clients_while_driving(tmp_path, record_property):
         host.activate(*DRIVING)
         instants, lateness, written = watch(host)
         clients = [
-            subprocess.Popen(
+            Popen(
                 [sys.executable, REQUESTER, str(seed), str(REQUESTS), *RIVALS],
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,

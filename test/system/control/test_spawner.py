@@ -8,6 +8,7 @@ import subprocess
 from controller_manager_msgs.msg import ControllerState
 import pytest
 from rcl_interfaces.srv import GetParameters
+from support import preloaded
 from support.control_fakes import WHEELS
 from support.manager_host import ros_in_this_process, running_host
 from support.ros_processes import command, environment, PATIENCE, run
@@ -289,7 +290,7 @@ def test_a_controller_that_somebody_has_unloaded_needs_and_claims_nothing():
 
 def test_two_spawners_of_one_controller_take_turns(host):
     processes = [
-        subprocess.Popen(
+        preloaded.Popen(
             command('spawner', DRIVE), stderr=subprocess.PIPE, text=True, env=environment()
         )
         for _ in range(2)

@@ -23,6 +23,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import GetEntityState
+from support.preloaded import Popen
 from support.ros_processes import PATIENCE
 from tf2_msgs.msg import TFMessage
 
@@ -43,7 +44,7 @@ def stack(tmp_path_factory):
     """The stack as scripts/run brings it up; everything must be gone afterwards."""
     bringup = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
     log = tmp_path_factory.mktemp('log')
-    process = subprocess.Popen(
+    process = Popen(
         [bringup, 'simulation', 'viewer:=false'],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -78,6 +78,7 @@ class TestOneRobot:
             assert x(operator) == pytest.approx(0.0, abs=0.05)
             yield operator, second
 
+    @pytest.mark.long
     def test_one_network(self, operators):
         operator, _ = operators
         before = x(operator)
@@ -121,6 +122,7 @@ def topics(shell):
     return shell.run('ros2')
 
 
+@pytest.mark.long
 def test_a_router_and_a_discovery_server():
     chapter = 'Through a router'
     with machines.two_networks() as (first, second), ExitStack() as stack:
@@ -137,6 +139,7 @@ def test_a_router_and_a_discovery_server():
         server.see(re.escape(PROMPT))
 
 
+@pytest.mark.long
 def test_a_robot_on_each_of_two_hosts():
     chapter = 'Several robots'
     with machines.one_network() as (first, second), ExitStack() as stack:

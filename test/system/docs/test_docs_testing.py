@@ -4,10 +4,10 @@
 
 import os
 import re
-import subprocess
 import sys
 
 import pytest
+from support import preloaded
 from support.doc_pages import Page, ROOT
 
 from amr_description.testing.simulation import Simulation
@@ -38,12 +38,9 @@ def test_the_tests_of_the_page_pass(tmp_path):
     paths = {'PYTHONPATH': os.pathsep.join(filter(None, sys.path))}
     # Without the options of the run that this is part of, and plugins that take 2 s to load.
     only_its_own = {'PYTEST_ADDOPTS': '', 'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1'}
-    ended = subprocess.run(
+    ended = preloaded.run(
         [sys.executable, '-m', 'pytest', '-q', '-p', 'no:cacheprovider', str(tmp_path)],
-        capture_output=True,
-        text=True,
         timeout=120,
-        check=False,
         cwd=tmp_path,
         env=os.environ | paths | only_its_own,
     )

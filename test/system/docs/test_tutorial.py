@@ -11,10 +11,12 @@ stands beside it.
 
 import math
 import re
+import time
 
 import pytest
 from support import shells
 from support.doc_pages import Page
+from support.running_programs import PATIENCE
 from support.shells import CTRL_C, line_of, PROMPT, ROOT
 
 README, PAGE, SIMULATOR, CONTROL = (
@@ -146,7 +148,7 @@ def test_one_command_moves_the_robot_forward(stack, terminal, book):
         printed = shell.run('ros2 topic pub --once /diff_drive_controller/cmd_vel ')
         assert 'publisher: beginning loop\n' in printed
         assert 'publishing #1: geometry_msgs.msg.TwistStamped(header=' in printed
-        assert x_at_rest(watcher) > before + 0.1
+        assert x_at_rest(watcher, moved_from=before) > before + 0.1
 
 
 @pytest.mark.parametrize(
@@ -204,9 +206,13 @@ def test_a_controller_is_switched_off_and_on(stack, terminal):
         assert ' inactive' not in shell.run('ros2 control list_controllers')
 
 
-def x_at_rest(shell):
+def x_at_rest(shell, moved_from=None):
     """Where the robot stands on /odom, m; it rolls until the timeout of its last command."""
     before, x = math.inf, odometry_x(shell)
+    deadline = time.monotonic() + PATIENCE
+    while moved_from is not None and abs(x - moved_from) < 1e-3:  # it has not begun to move
+        assert time.monotonic() < deadline, 'waited in vain'
+        x = odometry_x(shell)
     while abs(x - before) > 1e-3:
         before, x = x, odometry_x(shell)
     return x

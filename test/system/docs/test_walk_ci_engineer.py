@@ -29,6 +29,7 @@ from support.doc_pages import Page, ROOT
 from support.shells import fresh_variables
 import yaml
 
+pytestmark = pytest.mark.long('a colcon build and all of its tests, in a fresh home')
 PAGE = Page('ci.md')
 ROVER = ROOT / 'examples/rover'
 WORKFLOW = yaml.safe_load((ROVER / '.github/workflows/test.yml').read_text())

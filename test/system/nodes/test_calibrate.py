@@ -79,6 +79,7 @@ def errors(output):
     return [float(row[4]) for row in rows], [float(row[6]) for row in rows]
 
 
+@pytest.mark.long
 def test_a_robot_with_another_wheelbase_turns_as_odometry_says_afterwards(robot, tmp_path):
     with calibrate('--controller', '/one/drive', *BRISK) as program:
         assert program.end() == 0, program.output

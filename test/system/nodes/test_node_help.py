@@ -16,7 +16,9 @@ NODES = {
     'mujoco_sim': 'real_time_factor  double, 1.0\n',
     'robot_state_publisher': 'publish_frequency  double, 20.0 Hz\n',
     'ros2_control_node': 'update_rate  integer, 100 Hz\n',
+    'scan_localizer': 'initial_pose.yaw  double, 0.0 rad\n',
     'talker': '',
+    'truth_localizer': 'update_duration  double, 0.01 s\n',
     'viewer': 'port  integer, 8080\n      Port to listen on, or the next one that is free',
 }
 """What takes ROS arguments only, or a description: and a line of its help."""
@@ -45,4 +47,4 @@ def test_a_reader_that_goes_away_is_no_fault(tmp_path):
 def test_every_other_executable_prints_its_usage(name):
     result = run(name, '--help')
     assert result.returncode == 0, result.stderr
-    assert 'usage: ' in result.stdout.lower()
+    assert 'usage:' in result.stdout.lower()

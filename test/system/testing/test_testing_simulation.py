@@ -6,13 +6,13 @@ import os
 import select
 import shutil
 import signal
-import subprocess
 import sys
 
 from geometry_msgs.msg import Twist, TwistStamped
 import pytest
 import rclpy
 from rclpy.context import Context
+from support import preloaded
 from support.paths import ROOT
 from support.running_programs import PATIENCE, Program
 
@@ -242,12 +242,9 @@ def test_it_ends_with_the_test_that_is_killed():
 
 
 def test_it_ends_with_the_test_that_fails():
-    ended = subprocess.run(
+    ended = preloaded.run(
         [sys.executable, '-c', KILLED, str(URDF), 'fail'],
-        capture_output=True,
-        text=True,
         timeout=60,
-        check=False,
         env=os.environ | {'PYTHONPATH': os.pathsep.join(filter(None, sys.path))},
     )
     assert ended.returncode == 1

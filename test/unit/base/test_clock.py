@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which messages are stale after time jumped back."""
+"""Instants of a rate, and which messages are stale after time jumped back."""
 
 import pytest
 
-from amr_description.clock import TimeJumpFilter
+from amr_description.clock import instants_until, TimeJumpFilter
 
 MILLISECOND = 1_000_000
 
@@ -61,3 +61,12 @@ def test_after_a_second_nothing_is_on_its_way_any_more():
     clock.observe(1001 * MILLISECOND)
     assert not clock.is_recent
     assert not clock.is_stale(5000 * MILLISECOND)
+
+
+@pytest.mark.parametrize(
+    ('rate', 'expected'), [(10.0, [100, 200, 300]), (15.0, [67, 134, 200, 267]), (0.0, [])]
+)
+def test_an_instant_counts_from_itself_on(rate, expected):
+    counts = [instants_until(time * MILLISECOND, rate) for time in range(310)]
+    steps = [time for time in range(1, 310) if counts[time] != counts[time - 1]]
+    assert (steps, counts[0], counts[-1]) == (expected, 0, len(expected))

@@ -364,3 +364,21 @@ def test_a_robot_for_gazebo_needs_no_spawner(tmp_path):
     assert 'teleop_twist_keyboard\n' in stack(urdf=str(path)).next_steps
     said = f"urdf:={path}: Gazebo's plugins, active from the start: diff_drive, "
     assert ('INFO', f'{said}joint_state_broadcaster') in found.notes
+
+
+def test_the_filter_of_amr_has_its_controllers_and_its_imu(installed):
+    nodes = {each.executable: each for each in stack(ekf='true', viewer='false').nodes}
+    file, table = nodes['ekf_node'].parameters
+    assert (file, table) == (str(installed / 'config/ekf.yaml'), {'use_sim_time': True})
+    simulator = nodes['mujoco_sim'].parameters[0]
+    assert simulator['controllers'] == str(installed / 'config/controllers_ekf.yaml')
+    assert 'imu_link' in nodes['robot_state_publisher'].parameters[0]['robot_description']
+    assert 'ekf_node' not in {each.executable for each in stack(viewer='false').nodes}
+
+
+@pytest.mark.parametrize('given', [{'urdf': GRIPPER}, {'controllers': 'mine.yaml'}])
+def test_the_filter_is_for_amr_and_its_controllers(given):
+    ((name, value),) = given.items()
+    with pytest.raises(AmrError, match='ekf:=true is for amr and its controllers') as raised:
+        stack(ekf='true', **given)
+    assert f'with {name}:={value}, set enable_odom_tf: false there' in str(raised.value)

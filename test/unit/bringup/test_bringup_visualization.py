@@ -19,6 +19,7 @@ from amr_description.bringup.stacks.hardware import mock
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.model.origins import with_file
 
+SENSORS = ROOT / 'urdf/amr_sensors.urdf.xacro'
 PACKAGES = 'share/ament_index/resource_index/packages'
 
 
@@ -57,10 +58,22 @@ def test_no_page_where_it_is_not_wanted(function):
     assert 'viewer' not in executables(made(function, viewer='false'))
 
 
+def test_display_follows_its_file_unless_it_shall_not():
+    (watcher,) = (
+        node
+        for node in nodes_of(made(display, urdf=str(SENSORS), xacro_args='name:="a b"').nodes)
+        if node.executable == 'description_watcher'
+    )
+    assert [*map(str, watcher.arguments)] == [str(SENSORS), 'name:=a b']
+    assert not watcher.required
+    assert 'description_watcher' not in executables(made(display, reload='false'))
+
+
 def test_display_shows_the_robot_and_moves_its_joints():
     stack = made(display)
     scheduler = Scheduler(stack)
-    for wave in (['robot_state_publisher', 'joint_state_publisher'], ['viewer']):
+    at_once = ['robot_state_publisher', 'joint_state_publisher', 'description_watcher']
+    for wave in (at_once, ['viewer']):
         startable = scheduler.startable()
         assert [node.executable for node in startable] == wave
         for node in startable:

@@ -1,0 +1,314 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Run tests in several processes that are forked once all of them are collected.
+
+Each worker takes one file after the other, or several that belong together, the next ones as soon
+as it begins its last test, until none are left. To import and collect all tests takes ten seconds
+of processor time where their compiled files are not there yet, and four where they are; so it is
+done once, not in each worker.
+
+A worker writes no report. It sends what its tests report to the process that it was forked from,
+whose plugins hear of it as if the tests ran there.
+"""
+
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
+import contextlib
+from multiprocessing import connection, Pipe
+from multiprocessing.connection import Connection
+import os
+import pickle
+import signal
+import sys
+import threading
+import traceback
+import warnings
+
+import pytest
+
+from amr_description.forking import ForkTracing
+
+END_TIMEOUT = 10.0
+"""s that the workers have for what their tests tear down, when the run is interrupted."""
+
+_REQUEST = 'next'
+
+
+class ForkedWorkers:
+    """
+    A plugin of pytest: it runs the collected tests in workers.
+
+    Args:
+        count: How many.
+        begin: Called in each worker before its first test, with the worker's number from 0.
+        end: Called in each after its last test.
+        groups_of: Says what each test belongs to. What belongs together runs in one worker.
+    """
+
+    def __init__(
+        self,
+        count: int,
+        begin: Callable[[int], object],
+        end: Callable[[], object],
+        groups_of: Callable[[Sequence[pytest.Item]], Iterable[object]],
+    ) -> None:
+        self._count = count
+        self._groups_of = groups_of
+        self._begin = begin
+        self._end = end
+        self._workers: dict[Connection, _Worker] = {}
+        self._groups: deque[list[int]] = deque()
+        self._tracing: ForkTracing | None = None
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtestloop(self, session: pytest.Session) -> bool | None:
+        """Run all tests, in the place of pytest's own loop."""
+        option = session.config.option
+        if option.collectonly or session.testsfailed and not option.continue_on_collection_errors:
+            return None  # pytest itself does, and says, what is to be done
+        reporter = session.config.pluginmanager.get_plugin('terminalreporter')
+        if reporter is not None:
+            reporter.showfspath = False  # tests of several files come in turn
+        self._groups.extend(together(self._groups_of(session.items)))
+        self._tracing = ForkTracing()
+        try:
+            for number in range(min(self._count, len(self._groups))):
+                self._fork(session, number)
+            while self._workers:
+                for each in connection.wait([*self._workers]):
+                    assert isinstance(each, Connection)
+                    self._hear(session, self._workers[each])
+        finally:
+            self._end_all()
+        if session.shouldfail:
+            raise session.Failed(session.shouldfail)
+        if session.shouldstop:
+            raise session.Interrupted(session.shouldstop)
+        return True
+
+    def _fork(self, session: pytest.Session, number: int) -> None:
+        ours, theirs = Pipe()
+        assert self._tracing is not None
+        self._tracing.before_fork()
+        with warnings.catch_warnings():
+            # The threads that this warning is about are those of LTTng, which no test needs.
+            warnings.filterwarnings('ignore', 'This process .* is multi-threaded')
+            pid = os.fork()
+        if pid == 0:
+            self._tracing.after_fork_in_child()
+            for other in (ours, *self._workers):
+                other.close()  # else nobody notices the end of this one's parent
+            _be_worker(session, theirs, lambda: self._begin(number), self._end)
+        self._tracing.after_fork_in_parent()
+        theirs.close()
+        worker = _Worker(number, pid, ours)
+        self._workers[ours] = worker
+        self._hand_out(session, worker)
+
+    def _hand_out(self, session: pytest.Session, worker: '_Worker') -> None:
+        """Give a worker its next tests; none is the end."""
+        is_over = session.shouldfail or session.shouldstop or not self._groups
+        indices = [] if is_over else self._groups.popleft()
+        worker.outstanding.extend(indices)
+        with contextlib.suppress(OSError):  # it has ended; the next that is heard of it is that
+            worker.connection.send(indices)
+
+    def _hear(self, session: pytest.Session, worker: '_Worker') -> None:
+        """Take what a worker has sent, or note its end."""
+        try:
+            message = worker.connection.recv()
+        except (EOFError, OSError):
+            self._note_end(session, worker)
+            return
+        hook = session.config.hook
+        if message == _REQUEST:
+            self._hand_out(session, worker)
+            return
+        name, arguments = message
+        if name == 'pytest_runtest_logreport':
+            report = hook.pytest_report_from_serializable(config=session.config, data=arguments)
+            hook.pytest_runtest_logreport(report=report)
+            return
+        if name == 'pytest_warning_recorded':
+            text, category, filename, lineno = arguments.pop('warning')
+            record = warnings.WarningMessage(category(text), category, filename, lineno)
+            arguments['warning_message'] = record
+            hook.pytest_warning_recorded.call_historic(kwargs=arguments)
+            return
+        if name == 'pytest_runtest_logfinish':
+            worker.outstanding.popleft()
+        getattr(hook, name)(**arguments)
+
+    def _note_end(self, session: pytest.Session, worker: '_Worker') -> None:
+        """Reap a worker; one that has left tests behind has failed one, another does the rest."""
+        del self._workers[worker.connection]
+        worker.connection.close()
+        _, status = os.waitpid(worker.pid, 0)
+        code = os.waitstatus_to_exitcode(status)
+        if session.shouldfail or session.shouldstop or not (worker.outstanding or code):
+            return
+        if not worker.outstanding:
+            raise RuntimeError(f'worker {worker.number} {_how_ended(code)}')
+        item = session.items[worker.outstanding.popleft()]
+        report = pytest.TestReport(
+            item.nodeid,
+            item.location,
+            {},
+            'failed',
+            f'the process that ran {item.nodeid} {_how_ended(code)}',
+            '???',  # nobody knows
+        )
+        session.config.hook.pytest_runtest_logreport(report=report)
+        if worker.outstanding:
+            self._groups.appendleft([*worker.outstanding])
+        if self._groups:
+            self._fork(session, worker.number)
+
+    def _end_all(self) -> None:
+        """Interrupt the workers that are left, and wait for them."""
+        for worker in self._workers.values():
+            os.kill(worker.pid, signal.SIGINT)
+        timer = threading.Timer(END_TIMEOUT, self._kill_all)
+        timer.daemon = True
+        timer.start()
+        for each in [*self._workers]:
+            with contextlib.suppress(EOFError, OSError):
+                while True:
+                    each.recv()
+            os.waitpid(self._workers.pop(each).pid, 0)
+        timer.cancel()
+
+    def _kill_all(self) -> None:
+        for worker in [*self._workers.values()]:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(worker.pid, signal.SIGKILL)
+
+
+class _Worker:
+    """What the parent knows of a worker; ``outstanding``: the tests that it has yet to finish."""
+
+    def __init__(self, number: int, pid: int, link: Connection) -> None:
+        self.number = number
+        self.pid = pid
+        self.connection = link
+        self.outstanding: deque[int] = deque()
+
+
+def together(groups: Iterable[object]) -> list[list[int]]:
+    """Return the places of what is in each group, in the order in which the groups come."""
+    places: dict[object, list[int]] = {}
+    for place, group in enumerate(groups):
+        places.setdefault(group, []).append(place)
+    return [*places.values()]
+
+
+def _how_ended(code: int) -> str:
+    return f'was killed by {signal.Signals(-code).name}' if code < 0 else f'ended with {code}'
+
+
+def _be_worker(
+    session: pytest.Session,
+    link: Connection,
+    begin: Callable[[], object],
+    end: Callable[[], object],
+) -> None:
+    """Run what the parent sends, and end this process; called in a fork."""
+    code = 1
+    try:
+        _leave_streams_to_the_parent(session.config)
+        begin()
+        try:
+            _run(session, link)
+        except BaseException:
+            # A second Ctrl-C is not to keep what has been started from its end.
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+            raise
+        finally:
+            # Of all that pytest does at the end of a session, what is for its tests.
+            session.config.pluginmanager.get_plugin('runner').pytest_sessionfinish(session)
+            end()
+        code = 0
+    except (EOFError, BrokenPipeError, KeyboardInterrupt, pytest.exit.Exception):
+        pass  # the parent has ended, or ends
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        with contextlib.suppress(OSError, ValueError):
+            sys.stderr.flush()
+        os._exit(code)
+
+
+def _leave_streams_to_the_parent(config: pytest.Config) -> None:
+    """Capture output in files of this process, and report to nobody but the parent."""
+    plugins = config.pluginmanager
+    if (reporter := plugins.get_plugin('terminalreporter')) is not None:
+        plugins.unregister(reporter)
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    capturing = plugins.get_plugin('capturemanager')
+    capturing.stop_global_capturing()
+    capturing.start_global_capturing()
+    capturing.suspend_global_capture()
+
+
+def _run(session: pytest.Session, link: Connection) -> None:
+    """Run one test after the other."""
+    session.config.pluginmanager.register(_Reporting(session.config, link))
+    indices: deque[int] = deque(link.recv())
+    while indices and not (session.shouldfail or session.shouldstop):
+        item = session.items[indices.popleft()]
+        if not indices:
+            link.send(_REQUEST)
+            indices.extend(link.recv())
+        item.config.hook.pytest_runtest_protocol(
+            item=item, nextitem=session.items[indices[0]] if indices else None
+        )
+
+
+class _Reporting:
+    """A plugin of a worker: it sends to the parent what the parent's plugins want to hear of."""
+
+    def __init__(self, config: pytest.Config, link: Connection) -> None:
+        self._config = config
+        self._link = link
+
+    def pytest_runtest_logstart(self, nodeid: str, location: Sequence[object]) -> None:
+        self._send('pytest_runtest_logstart', nodeid=nodeid, location=location)
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        data = self._config.hook.pytest_report_to_serializable(config=self._config, report=report)
+        self._link.send(('pytest_runtest_logreport', data))
+
+    def pytest_runtest_logfinish(self, nodeid: str, location: Sequence[object]) -> None:
+        self._send('pytest_runtest_logfinish', nodeid=nodeid, location=location)
+
+    def pytest_warning_recorded(
+        self,
+        warning_message: warnings.WarningMessage,
+        when: str,
+        nodeid: str,
+        location: tuple[str, int, str] | None,
+    ) -> None:
+        category = warning_message.category
+        try:
+            pickle.dumps(category)
+            category('')
+        except Exception:  # of a module that only this worker has, or one that wants more words
+            category = UserWarning
+        self._send(
+            'pytest_warning_recorded',
+            warning=(
+                str(warning_message.message),
+                category,
+                warning_message.filename,
+                warning_message.lineno,
+            ),
+            when=when,
+            nodeid=nodeid,
+            location=location,
+        )
+
+    def _send(self, hook: str, **arguments: object) -> None:
+        self._link.send((hook, arguments))

@@ -1,0 +1,164 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tests in forked workers: each file in one process, and told of as if there were only one."""
+
+import os
+from pathlib import Path
+import re
+import signal
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+from support.forked_workers import together
+from support.running_programs import Program
+
+CONFTEST = """
+import os, pathlib, pytest
+from support.forked_workers import ForkedWorkers
+
+def note(*words):
+    with open('notes', 'a') as file:
+        print(*words, file=file)
+
+def pytest_configure(config):
+    config.pluginmanager.register(ForkedWorkers(
+        2,
+        lambda number: note('begin', number, os.getpid()),
+        lambda: note('end', os.getpid()),
+        lambda items: [item.path for item in items],
+    ))
+
+note('collects', os.getpid())
+
+@pytest.fixture(scope='session', autouse=True)
+def of_the_session():
+    yield
+    note('torn_down', os.getpid())
+
+@pytest.fixture(autouse=True)
+def noted(request):
+    note(request.path.stem, os.getpid())
+"""
+GOOD = """
+def test_one(): pass
+def test_two(): pass
+"""
+
+
+def run(folder, *arguments, **files):
+    """Pytest in a folder with these files, in workers."""
+    (folder / 'conftest.py').write_text(CONFTEST)
+    for name, text in files.items():
+        (folder / f'test_{name}.py').write_text(text)
+    options = ('-p', 'no:cacheprovider', '-p', 'no:hypothesispytest', '--junitxml=junit.xml')
+    # Not the options of this run, such as those of colcon.
+    env = {'PYTEST_ADDOPTS': ''}
+    return Program(sys.executable, '-m', 'pytest', *options, *arguments, cwd=folder, env=env)
+
+
+def notes(folder):
+    """What was noted: the words of each line."""
+    return [line.split() for line in (folder / 'notes').read_text().splitlines()]
+
+
+def of(kind, found):
+    return [words[1:] for words in found if words[0] == kind]
+
+
+def test_groups_come_in_their_order_each_whole():
+    assert together('bacab') == [[0, 4], [1, 3], [2]]
+
+
+def test_each_file_runs_in_one_worker_and_all_is_told(tmp_path):
+    bad = """
+import warnings, pytest
+def test_bad():
+    print('printed by it')
+    warnings.warn('look out', DeprecationWarning)
+    one = 1
+    assert one == 2
+def test_skipped(): pytest.skip('not today')
+@pytest.mark.xfail
+def test_expected(): assert 0
+@pytest.fixture
+def broken(): raise ValueError('broken fixture')
+def test_error(broken): pass
+"""
+    with run(tmp_path, '-rs', bad=bad, good=GOOD, more=GOOD) as program:
+        assert program.end() == pytest.ExitCode.TESTS_FAILED, program.output
+    said = program.output
+    assert re.search('1 failed, 4 passed, 1 skipped, 1 xfailed, 1 warning, 1 error', said), said
+    for words in ('printed by it', 'assert 1 == 2', 'broken fixture', 'not today', 'look out'):
+        assert words in said
+    assert '[100%]' in said
+    found = notes(tmp_path)
+    assert len(of('collects', found)) == 1
+    workers = {pid for _, pid in of('begin', found)}
+    assert len(workers) == 2
+    assert workers == {pid for (pid,) in of('torn_down', found)}
+    assert workers == {pid for (pid,) in of('end', found)}
+    by_file = {name: {pid for (pid,) in of(f'test_{name}', found)} for name in ('good', 'more')}
+    assert all(len(pids) == 1 and pids <= workers for pids in by_file.values())
+    [suite] = ElementTree.parse(tmp_path / 'junit.xml').getroot()
+    counted = {key: suite.get(key) for key in ('tests', 'failures', 'errors', 'skipped')}
+    assert counted == {'tests': '8', 'failures': '1', 'errors': '1', 'skipped': '2'}
+
+
+def test_a_worker_that_dies_fails_its_test_alone(tmp_path):
+    dies = """
+import os, signal
+def test_before(): pass
+def test_dies(): os.kill(os.getpid(), signal.SIGSEGV)
+def test_after(): pass
+"""
+    with run(tmp_path, '-p', 'no:faulthandler', dies=dies, good=GOOD, more=GOOD) as program:
+        assert program.end() == pytest.ExitCode.TESTS_FAILED
+    assert '1 failed, 6 passed' in program.output
+    text = 'the process that ran test_dies.py::test_dies was killed by SIGSEGV'
+    assert text in program.output
+    assert len(of('begin', notes(tmp_path))) == 3
+
+
+def test_an_interrupted_run_tears_down_and_leaves_nobody(tmp_path):
+    waits = """
+import time
+def test_waits():
+    with open('waits', 'w'): pass
+    time.sleep(300)
+"""
+    with run(tmp_path, waits=waits, good=GOOD) as program:
+        while not (tmp_path / 'waits').exists():
+            assert program.process.poll() is None, program.output
+        assert program.end(signal.SIGINT) == pytest.ExitCode.INTERRUPTED
+    found = notes(tmp_path)
+    assert [pid for (pid,) in of('test_waits', found)] in of('torn_down', found)
+    assert not any(Path('/proc', pid).exists() for _, pid in of('begin', found))
+
+
+def test_workers_end_with_the_run_that_is_killed(tmp_path):
+    waits = """
+import os, time
+def test_waits():
+    parent = os.getppid()
+    with open('waits', 'w'): pass
+    while os.getppid() == parent: time.sleep(0.01)
+def test_not(): pass
+"""
+    with run(tmp_path, waits=waits, good=GOOD) as program:
+        while not (tmp_path / 'waits').exists():
+            assert program.process.poll() is None, program.output
+        program.signal(signal.SIGKILL)
+        program.process.wait()
+        pids = [pid for _, pid in of('begin', notes(tmp_path))]
+        while any(is_running(pid) for pid in pids):
+            os.sched_yield()
+    found = notes(tmp_path)
+    assert [pid for (pid,) in of('test_waits', found)] in of('torn_down', found)
+
+
+def is_running(pid):
+    try:
+        return Path('/proc', pid, 'stat').read_text().rpartition(')')[2].split()[0] != 'Z'
+    except FileNotFoundError:
+        return False
