@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """``/clock``, ``use_sim_time``, and the real-time factor."""
 
+from collections.abc import Set
+
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.contract.findings import (
     failed,
@@ -87,15 +89,18 @@ def same_time(seen: Observations) -> Outcome:
     if not seen.use_sim_time:
         return not_checked('no node has said its use_sim_time')
     expected = seen.is_simulated
-    other = _nodes(seen, sim_time=not expected)
+    unharmed = _unharmed(seen) if expected else frozenset()
+    other = _nodes(seen, sim_time=not expected, but=unharmed)
     value = str(expected).lower()
     if other:
         return failed(
             f'use_sim_time is {str(not expected).lower()} in {other}',
             f'set use_sim_time: {value} there, as /clock is {"" if expected else "not "}published',
         )
+    count = len(seen.use_sim_time) - len(unharmed)
+    harmless = f'; not in {_names(unharmed)}, which no stamp can harm' if unharmed else ''
     silent = f'; no answer of {", ".join(seen.silent_nodes)}' if seen.silent_nodes else ''
-    return passed(f'use_sim_time is {value} in all {len(seen.use_sim_time)} nodes{silent}')
+    return passed(f'use_sim_time is {value} in all {count} nodes{harmless}{silent}')
 
 
 def real_time_factor(seen: Observations) -> Outcome:
@@ -117,8 +122,26 @@ def real_time_factor(seen: Observations) -> Outcome:
     )
 
 
-def _nodes(seen: Observations, *, sim_time: bool) -> str:
+def _unharmed(seen: Observations) -> frozenset[str]:
+    """
+    Return the nodes on the system clock that do well with it where time is simulated.
+
+    They follow ``/clock`` by a subscription of their own, or neither publish nor subscribe to
+    anything that is stamped here.
+    """
+    stamped = (seen.tf, seen.odom, seen.scan, seen.map, seen.cmd_vel)
+    ends = {end.node for each in stamped for end in (*each.publishers, *each.subscriptions)}
+    follow = {end.node for end in seen.clock.subscriptions}
+    other = {name for name, value in seen.use_sim_time.items() if not value}
+    return frozenset(other & follow | other - ends)
+
+
+def _nodes(seen: Observations, *, sim_time: bool, but: Set[str] = frozenset()) -> str:
     """Return the nodes whose use_sim_time has a value, the first few by name."""
-    found = sorted(name for name, value in seen.use_sim_time.items() if value is sim_time)
+    return _names({name for name, value in seen.use_sim_time.items() if value is sim_time} - but)
+
+
+def _names(nodes: Set[str]) -> str:
+    found = sorted(nodes)
     more = f' and {len(found) - _SHOWN} more' if len(found) > _SHOWN else ''
     return ', '.join(found[:_SHOWN]) + more

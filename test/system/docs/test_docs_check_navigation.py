@@ -31,7 +31,7 @@ def test_what_is_typed_beside_the_stack(tmp_path):
         shells.newcomer(f'{book}{STACK}', tmp_path) as robot,
         shells.newcomer(f'{book}{DEMANDS}', tmp_path) as shell,
     ):
-        robot.type(f'{line_of(STACK, "scripts/run navigation")} viewer:=false')
+        robot.type(line_of(STACK, 'scripts/run navigation'))
         robot.see(r'ready in \d+\.\d s')
         shell.type(plain)
         shell.see(r'passed +scan\.length')

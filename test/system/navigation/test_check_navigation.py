@@ -48,7 +48,7 @@ def by_verdict(found, verdict):
 def stack(tmp_path_factory):
     folder = tmp_path_factory.mktemp('stack')
     own = {'AMENT_PREFIX_PATH': str(ROOT / 'install' / 'amr_description')}
-    with Bringup(folder, 'navigation', 'viewer:=false', **own) as up:
+    with Bringup(folder, 'navigation', **own) as up:
         up.expect('ready in')
         yield up
 

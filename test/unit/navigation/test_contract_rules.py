@@ -65,6 +65,17 @@ def test_names_are_unique_and_every_rule_says_whose_demand_it_is():
     assert all(rule.asked and rule.source for rule in RULES)
 
 
+def test_who_takes_stamps_needs_simulated_time_or_follows_the_clock_itself():
+    clock = replace(GOOD.clock, subscriptions=(Endpoint('/drive', CLOCK),))
+    times = {'/drive': False, '/page': False, '/robot_state_publisher': True}
+    found = finding('time.use_sim_time', replace(GOOD, use_sim_time=times, clock=clock))
+    assert found.verdict is Verdict.PASSED
+    said = 'true in all 1 nodes; not in /drive, /page, which no stamp can harm'
+    assert said in found.found
+    found = finding('time.use_sim_time', replace(GOOD, use_sim_time=times))
+    assert (found.verdict, found.found) == (Verdict.FAILED, 'use_sim_time is false in /drive')
+
+
 def in_order(*transforms):
     return tuple(sorted(transforms, key=lambda each: each.received))
 
@@ -93,7 +104,7 @@ BROKEN = [
     ('clock.rate', {'ticks': STILL}, 'time stands still at 100.000 s'),
     ('clock.rate', {'ticks': ticks()[:1]}, '1 messages in 2 s of /sim'),
     ('clock.order', {'ticks': BACK}, 'first from 102.040 s to 100.000 s'),
-    ('time.use_sim_time', {'use_sim_time': {'/a': True, '/b': False}}, 'false in /b'),
+    ('time.use_sim_time', {'use_sim_time': {'/a': True, '/drive': False}}, 'false in /drive'),
     ('time.real_time_factor', {'ticks': ticks(factor=5.0)}, '5.00 over'),
     ('time.real_time_factor', {'ticks': ticks(factor=0.5)}, '0.50 over'),
     ('tf.frames', {'transforms': moving()}, 'no base_link; there are'),
