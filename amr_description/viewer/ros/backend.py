@@ -114,7 +114,7 @@ class GraphBackend(GraphObserver):
         self._monitor.observer = self
         self._parameters = NodeParameters(self._services, executor)
         log = node.get_logger().info
-        self._publications = Publications(node, executor, self._refusal, log)
+        self._publications = Publications(node, executor, self._refusal, self._now, log)
         self._goals = Goals(
             node,
             executor,

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from builtin_interfaces.msg import Time
 from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
 from rclpy.executors import Executor
 from rclpy.node import Node
@@ -17,6 +18,7 @@ from amr_description.errors import ViewerError
 from amr_description.ros.cdr_types import Group, Layout, layout_of, Many, Text
 from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
+from amr_description.ros.messages import fill_stamp
 from amr_description.text import shorten
 from amr_description.viewer.introspection import FieldInfo
 from amr_description.viewer.requests import Publish
@@ -41,7 +43,8 @@ class Publications:
     All that pages publish by forms; on the server's thread.
 
     ``refusal`` returns why a topic must not be published on now, None: it may; it is asked for
-    each message. ``log`` logs a line.
+    each message. ``now`` returns the time, ns, that a stamp of ``now`` becomes. ``log`` logs a
+    line.
     """
 
     def __init__(
@@ -49,11 +52,13 @@ class Publications:
         node: Node,
         executor: Executor,
         refusal: Callable[[str], str | None],
+        now: Callable[[], int],
         log: Callable[[str], object],
     ) -> None:
         self._node = node
         self._executor = executor
         self._refusal = refusal
+        self._now = now
         self._log = log
         self._of: dict[tuple[str, str], _Publication] = {}
         """(page, topic) -> what it publishes."""
@@ -72,7 +77,8 @@ class Publications:
             found.timer = None
 
         def send() -> None:
-            now = self._node.get_clock().now().to_msg()
+            now = Time()
+            fill_stamp(self._now(), now)
             for stamp in stamps:
                 stamp(now)
             found.publisher.publish(message)

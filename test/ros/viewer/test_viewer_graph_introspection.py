@@ -7,7 +7,7 @@ import math
 import threading
 import time
 
-from geometry_msgs.msg import TransformStamped, Twist
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
 import pytest
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 import rclpy
@@ -226,6 +226,9 @@ def test_the_reason_of_a_refusal_is_said_in_one_line(parameters, name, kind, val
     assert '\n' not in str(refused.value)
 
 
+NOW = 12_000_000_034  # ns
+
+
 class Page:
     """Publishes by forms; a topic that begins with /held is refused."""
 
@@ -236,6 +239,7 @@ class Page:
             ros[0],
             ros[2],
             lambda topic: 'a stop holds' if self.is_held and topic == '/cmd' else None,
+            lambda: NOW,
             self.logged.append,
         )
 
@@ -280,6 +284,25 @@ def test_what_is_published_at_a_rate_ends_with_its_page_or_a_stop(ros, heard):
     asyncio.run(use())
     assert {each.linear.x for each in heard} == {0.5}
     assert page.logged[0] == 'page 1 publishes geometry_msgs/msg/Twist on /cmd at 100 Hz'
+
+
+def test_a_stamp_of_now_is_that_of_the_clock_that_robots_have(ros):
+    heard = []
+    _, other, _ = ros
+    subscription = other.create_subscription(TwistStamped, '/stamped', heard.append, 10)
+    page = Page(ros)
+
+    async def use():
+        fields = {'topic': '/stamped', 'message': 'geometry_msgs/msg/TwistStamped'}
+        values = {'header': {'stamp': 'now'}}
+        await page.publications.publish('page 1', publish(**fields, values=values, rate=100.0))
+        await come(lambda: heard)
+        page.publications.forget('page 1')
+
+    asyncio.run(use())
+    other.destroy_subscription(subscription)
+    stamp = heard[0].header.stamp
+    assert (stamp.sec, stamp.nanosec) == (12, 34)
 
 
 @pytest.mark.parametrize(
