@@ -14,6 +14,7 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from support.paths import TESTS
+from support.ros_processes import PATIENCE
 from support.running_stack import Graph, running_stack
 
 from amr_description.ros.service_calls import wait_until
@@ -66,7 +67,8 @@ def seen(tmp_path_factory):
         with running_stack(tmp_path_factory.mktemp('stack'), LIVE['urdf']) as log:
 
             def settled():
-                # Discovery takes its time: what has come is seen later, and what has gone too.
+                # Discovery takes its time: what has come is seen later, and what has gone too;
+                # after 20 s, its lease, where the datagram that says so is lost.
                 names = {name.rpartition('/')[2] for name in LIVE['nodes']}
                 topics = graph.topics()
                 ends = {end[0] for t in topics.values() for end in (*t['pub'], *t['sub'])}
@@ -77,7 +79,7 @@ def seen(tmp_path_factory):
                     and ends == names
                 ) or None
 
-            wait_until(node, settled, timeout=20.0)
+            wait_until(node, settled, timeout=PATIENCE)
             seen = Seen(graph, log)
     finally:
         node.destroy_node()
