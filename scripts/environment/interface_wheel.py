@@ -11,6 +11,7 @@ from collections.abc import Mapping
 import os
 from pathlib import Path
 import platform
+import re
 import shutil
 import sys
 
@@ -27,6 +28,8 @@ ZIG = 'ziglang==0.17.1'
 NO_COMPILER = 3  # exit code of `python -m interface_build --check`
 # What the build reads of the environment: headers, generators, the template engine, numpy's ABI.
 COMPILED_AGAINST = ('ros-', 'numpy', 'empy', 'setuptools')
+# Of what begins so, what it does not read: CMake's side of ROS, for workspaces of users.
+NOT_COMPILED_AGAINST = re.compile(r'ros-(jazzy-)?(ament-(cmake|package)|domain-coordinator)')
 NEEDED_TO_BUILD = (*COMPILED_AGAINST, 'catkin-pkg', 'PyYAML')
 
 
@@ -36,7 +39,7 @@ def key(interfaces: Path, lock: Path) -> str:
     against = [
         f'{name}=={version}'
         for name, version in sorted(pins.items())
-        if name.startswith(COMPILED_AGAINST)
+        if name.startswith(COMPILED_AGAINST) and not NOT_COMPILED_AGAINST.match(name)
     ]
     sources = stamps.digest_files(stamps.files_below(interfaces), interfaces)
     python = sys.implementation.cache_tag or ''

@@ -15,6 +15,7 @@ the commands start inherits both; ``ros2 run`` takes them away again from foreig
 
 **Hooks.** ``local_setup.*`` puts the environment in front of PATH and AMENT_PREFIX_PATH. colcon
 chains it into each workspace that is built on top, the same as it does with ``/opt/ros/jazzy``.
+CMake builds with Ninja, which is here, unless CMAKE_GENERATOR says otherwise: not all have make.
 Such a shell keeps to this host as one of ``scripts/activate`` does: with the range of the subnet,
 which is the default of ROS, others would see its nodes, and a publisher that sends once, as
 ``ros2 topic pub --once``, would not reach a robot that keeps to this host.
@@ -25,6 +26,8 @@ shell; it names colcon's build folder, where the package's metadata are too.
 **Modules under their names in ROS.** PyPI has no tf2_ros, message_filters, sensor_msgs_py and
 ament_copyright. Nodes and tests that import them get those of this package, under the names of the
 originals' modules.
+
+**Packages of CMake.** Of those that PyPI has not, ``cmake/`` holds what packages of users ask for.
 """
 
 import os
@@ -34,6 +37,7 @@ import shlex
 from . import stamps
 from .checkout import Checkout, PACKAGE
 
+CMAKE_PACKAGES = Path(__file__).with_name('cmake')
 COMMANDS = ('ros2', 'check_urdf')
 
 COMMAND = """\
@@ -102,6 +106,7 @@ case ":${{AMENT_PREFIX_PATH-}}:" in
   *) export AMENT_PREFIX_PATH={venv}"${{AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}}" ;;
 esac
 export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
+export CMAKE_GENERATOR="${{CMAKE_GENERATOR:-Ninja}}"
 export ROS_AUTOMATIC_DISCOVERY_RANGE="${{ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}}"
 """
 
@@ -124,6 +129,17 @@ def modules(build: Path) -> dict[str, str]:
     return found
 
 
+def cmake_packages(venv: Path) -> dict[Path, str]:
+    """Return the text of each file of the packages of ``cmake/``, by its path in ``venv``."""
+    share = venv / 'share'
+    found = {}
+    for source in sorted(CMAKE_PACKAGES.glob('*/*.cmake')):
+        package = source.parent.name
+        found[share / package / 'cmake' / source.name] = source.read_text()
+        found[share / 'ament_index/resource_index/packages' / package] = ''
+    return found
+
+
 def files(venv: Path, home: Path, checkout: Checkout) -> dict[Path, str]:
     """Return the text of each file, by its path in ``venv``, as it has to be at ``home``."""
     build = checkout.build
@@ -143,6 +159,7 @@ def files(venv: Path, home: Path, checkout: Checkout) -> dict[Path, str]:
         },
         venv / 'bin' / 'bringup': BRINGUP.format(install=shlex.quote(str(checkout.install))),
         **{venv / f'local_setup.{shell}': local_setup for shell in ('sh', 'bash', 'zsh')},
+        **cmake_packages(venv),
         packages / f'{PACKAGE}.pth': f'{build}\n',
         **{packages / path: text for path, text in modules(build).items()},
     }

@@ -268,6 +268,7 @@ def test_wheel_depends_on_the_ros_it_is_compiled_against_not_on_the_rest(checkou
 
     first = key('pytest==1\nros-rmw==1\n')
     assert key('pytest==2\nros-rmw==1\n') == first
+    assert key('ros-ament-cmake-core==1\nros-ament-package==1\nros-rmw==1\n') == first
     assert key('pytest==1\nros-rmw==2\n') != first
 
 
