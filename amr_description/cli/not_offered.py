@@ -11,8 +11,6 @@ INSTEAD_OF_COMMANDS = {
     'control list_controllers`, and at a description with `check_urdf FILE`',
     'ros2 multicast': 'see with `ros2 node list` on both machines whether they find each other '
     '(docs/two_machines.md)',
-    'ros2 pkg create': 'copy the folder of a Python package, as examples/py_pubsub of this '
-    'repository (docs/your_own_package.md)',
     'ros2 plugin': 'plugins of C++ are not read here; those of the controller manager are listed '
     'by `ros2 control list_controller_types`',
     'ros2 security': 'there are no enclaves; keep a robot to this host, or to one network, with '

@@ -20,6 +20,8 @@ COMPLETERS = {
     'controller_manager': 'graph:controller_managers',
     'controller_name': 'manager:controllers',
     'deactivate': 'manager:active_controllers',
+    'dependencies': 'installed:packages',
+    'destination_directory': 'installed:folders',
     'executable_name': 'installed:executables',
     'hardware_component_name': 'manager:hardware_components',
     'launch_arguments': 'installed:launch_arguments',
@@ -40,6 +42,8 @@ COMPLETERS = {
     # where a name means something else
     'control load_controller controller_name': 'manager:loadable_controllers',
     'interface package package_name': 'installed:interface_packages',
+    'pkg create license': 'installed:licenses',
+    'pkg create package_name': 'installed:nothing',
     'launch package_name': 'installed:launch_packages',
     'run package_name': 'installed:run_packages',
     'service call values': 'installed:request',

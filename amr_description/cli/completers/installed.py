@@ -64,6 +64,25 @@ def files(_args: Namespace, prefix: str) -> Iterable[str]:
     return FilesCompleter()(prefix=prefix)
 
 
+def folders(_args: Namespace, prefix: str) -> Iterable[str]:
+    """Return folders."""
+    from argcomplete.completers import DirectoriesCompleter
+
+    return DirectoriesCompleter()(prefix=prefix)
+
+
+def licenses(_args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return the licenses whose text is here."""
+    from amr_description.cli.pkg.licenses import LICENSES
+
+    return LICENSES
+
+
+def nothing(_args: Namespace, _prefix: str) -> Iterable[str]:
+    """Return no word: a new name is typed."""
+    return ()
+
+
 def interfaces(_args: Namespace, _prefix: str) -> Iterable[str]:
     """Return every ``package/msg/Name``, services and actions included."""
     from amr_description.cli.interface.index import all_interfaces

@@ -3,6 +3,7 @@
 """Various package related sub-commands."""
 
 VERBS = {
+    'create': 'amr_description.cli.pkg.create',
     'executables': 'amr_description.cli.pkg.executables',
     'list': 'amr_description.cli.pkg.list',
     'prefix': 'amr_description.cli.pkg.prefix',

@@ -17,7 +17,7 @@ talker, listener, check_urdf, drive                test_tutorial.py
 ``--help``                                         test/system/nodes/test_node_help.py
 ``bringup stop``                                   test_the_tutorials_own_package
 Ctrl-C during the start                            test_a_launch_that_is_broken_off
-a missing package, ``ros2 bag``, ``pkg create``    test/system/cli/
+a missing package, ``ros2 bag``                    test/system/cli/
 message packages, rqt                              README, "What is not here"
 =================================================  ==============================================
 """
@@ -46,10 +46,24 @@ def home(tmp_path):
 
 
 def test_her_first_package(home):
-    """The six lines of the README, a second shell without us, and her tests."""
+    """The lines of the README and of the page, her two nodes, a second shell without us, tests."""
+    package = home / 'ros2_ws/src/py_pubsub'
     with newcomer(README.text, home) as shell:
-        for line in ('mkdir -p ~/ros2_ws', 'cd ~/ros2_ws', 'colcon build', 'source install/'):
+        for line in (
+            'mkdir -p ~/ros2_ws',
+            'ros2 pkg create',
+            'cd .. && colcon',
+            'source install/',
+        ):
             shell.run(line)
+        assert shell.run('ros2 run py_pubsub hello') == 'Hi from py_pubsub.\n'
+        for node, text in zip(('talker', 'listener'), PACKAGE.blocks('python'), strict=True):
+            (package / f'py_pubsub/{node}.py').write_text(text)
+        (executables,) = (each for each in PACKAGE.blocks('text') if 'talker' in each)
+        setup, scripts = (package / 'setup.py').read_text(), "'console_scripts': [\n"
+        (package / 'setup.py').write_text(setup.replace(scripts, scripts + executables))
+        shell.book = PACKAGE.text
+        shell.run('colcon build')
         shell.start('ros2 run py_pubsub talker')
         seen = shell.see(r'\[minimal_publisher\]: Publishing: "Hello World: \d+"').string
         assert 'is not installed' not in seen  # hers, and no stand-in of ours
@@ -58,11 +72,11 @@ def test_her_first_package(home):
             other.see(r'\[minimal_subscriber\]: I heard: "Hello World: \d+"')
             other.interrupt()
         shell.interrupt()
-        shell.book = PACKAGE.text
-        assert '1 passed' in shell.run('colcon test')
-        assert shell.run('colcon test-result').startswith('Summary: 1 test, 0 errors, 0 failures')
+        assert '2 passed, 1 skipped' in shell.run('colcon test')  # the linters
+        assert shell.run('colcon test-result').startswith('Summary: 3 tests, 0 errors, 0 failures')
         shell.book = 'ros2 pkg executables py_pubsub'
-        assert shell.run('ros2 pkg') == 'py_pubsub listener\npy_pubsub talker\n'
+        names = ('hello', 'listener', 'talker')
+        assert shell.run('ros2 pkg') == ''.join(f'py_pubsub {name}\n' for name in names)
 
 
 @pytest.fixture
