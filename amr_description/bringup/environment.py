@@ -49,6 +49,12 @@ _OPTIONS = {
 _ADDRESS = re.compile(
     r'(?:(?:UDP|TCP)v[46]:)?(?:\[(?P<locator>[^\]]+)\]|(?P<host>[^\[\]:;\s]+))(?::(?P<port>\d+))?'
 )
+# A script whose interpreter the kernel cannot start, as its path is long, has spaces, or is not
+# known when the script is written, has the shell start it: pip, scripts/setup and our wheel write
+# such a second line.
+_EXEC_OF_SHELL = re.compile(rb"""'{3}exec' (?:"([^"]+)"|(\S+)) "\$0" "\$@"$""", re.MULTILINE)
+_OWN_FOLDER = '${0%/*}'
+_LONGEST_PATH = 4096
 
 
 def add_options(parser: ArgumentParser) -> None:
@@ -221,9 +227,14 @@ def _same_folder(one: Path, other: Path) -> bool:
 
 
 def interpreter_of(executable: Path, base: Mapping[str, str]) -> Path | None:
-    """Return the interpreter that a Python script names in its first line; None: it is none."""
+    """Return the interpreter that a Python script names at its beginning; None: it is none."""
     with executable.open('rb') as file:
-        first_line = file.readline(512)
+        first_line, second_line = file.readline(512), file.readline(_LONGEST_PATH)
+    if by_shell := _EXEC_OF_SHELL.match(second_line):
+        named = os.fsdecode(by_shell[1] or by_shell[2])
+        return Path(
+            os.path.normpath(named.replace(_OWN_FOLDER, str(executable.absolute().parent)))
+        )
     if not first_line.startswith(b'#!'):
         return None
     words = os.fsdecode(first_line[2:]).split()

@@ -24,6 +24,8 @@ import sys
 import time
 
 _START = time.monotonic()
+program = 'scripts/setup'
+"""Who speaks. A script that uses these modules for something else puts its own name here."""
 
 
 class SetupError(Exception):
@@ -32,7 +34,7 @@ class SetupError(Exception):
 
 def say(text: str) -> None:
     """Tell the person in front of it, on standard error, one line."""
-    print(f'scripts/setup: {text}', file=sys.stderr, flush=True)
+    print(f'{program}: {text}', file=sys.stderr, flush=True)
 
 
 def progress(text: str) -> None:

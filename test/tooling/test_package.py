@@ -182,7 +182,7 @@ def test_colcon_sees_this_package_alone():
     assert listed.stdout == f'{NAME}\t.\t(ros.ament_python)\n'
 
 
-@pytest.mark.parametrize('script', ['setup', 'run', 'test', 'bench', '../.ci/run'])
+@pytest.mark.parametrize('script', ['setup', 'run', 'test', 'bench', 'release', '../.ci/run'])
 def test_scripts_are_executable(script):
     path = ROOT / 'scripts' / script
     assert os.access(path, os.X_OK)
@@ -190,7 +190,7 @@ def test_scripts_are_executable(script):
 
 
 @pytest.mark.parametrize(
-    'script', ['setup', 'run', 'test', 'bench', 'lint', 'screenshots', 'fuzz_urdf']
+    'script', ['setup', 'run', 'test', 'bench', 'lint', 'release', 'screenshots', 'fuzz_urdf']
 )
 @pytest.mark.parametrize('option', ['-h', '--help'])
 def test_scripts_print_their_help_and_do_nothing(script, option, tmp_path):

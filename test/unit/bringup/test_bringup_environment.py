@@ -8,10 +8,18 @@ import sys
 
 import pytest
 
-from amr_description.bringup.environment import child_environment, setup_command, WHEELS_GUARD
+from amr_description.bringup.environment import (
+    child_environment,
+    interpreter_of,
+    setup_command,
+    WHEELS_GUARD,
+)
 
 OURS = f'{sys.prefix}/lib'
 BASE = {'PATH': os.environ['PATH'], WHEELS_GUARD: '1', 'LD_LIBRARY_PATH': f'/opt/x:{OURS}'}
+
+BY_SHELL = """'''exec' %s "$0" "$@"
+"""
 
 
 @pytest.fixture
@@ -32,6 +40,8 @@ def script(tmp_path):
         (b'#!/usr/bin/env no-such-python\n', False, f'/opt/x:{OURS}'),
         (b'#!/usr/bin/env -S python-of-nobody\n', False, '/opt/x'),
         (b'#!/bin/sh\n', False, f'/opt/x:{OURS}'),
+        (f'#!/bin/sh\n{BY_SHELL % f'"{sys.prefix}/bin/python"'}'.encode(), True, f'/opt/x:{OURS}'),
+        (f'#!/bin/sh\n{BY_SHELL % "/opt/other/bin/python"}'.encode(), False, '/opt/x'),
         (b'#!\n', False, f'/opt/x:{OURS}'),
         (b'\x7fELF\x02', False, f'/opt/x:{OURS}'),
         (b'', False, f'/opt/x:{OURS}'),
@@ -51,6 +61,13 @@ def test_env_is_looked_up_in_the_path(script):
     ours = {**BASE, 'PATH': f'{sys.prefix}/bin'}
     assert WHEELS_GUARD in child_environment(path, ours)
     assert WHEELS_GUARD not in child_environment(path, {**ours, 'PATH': '/nowhere'})
+
+
+def test_an_interpreter_may_be_named_by_the_scripts_own_folder(tmp_path):
+    script = tmp_path / 'lib/some_package/node'
+    script.parent.mkdir(parents=True)
+    script.write_text('#!/bin/sh\n' + BY_SHELL % '"${0%/*}/../../bin/python"')
+    assert interpreter_of(script, {}) == tmp_path / 'bin/python'
 
 
 def test_without_the_wheels_nothing_is_touched(script):

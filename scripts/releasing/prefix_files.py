@@ -1,0 +1,191 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What the wheel brings beside its modules, so that a virtual environment is a ROS prefix.
+
+``scripts/setup`` writes such files for a checkout (``scripts/environment/launchers.py``, which has
+the why). There they name the folders of the checkout; a wheel does not know where it will be
+installed, so these find it from their own path.
+
+**Commands** (``bin/``): ``ros2``, ``check_urdf`` and ``bringup`` set up their environment by
+themselves, so they need no ``source``.
+
+**Executables** (``lib/amr_description/``): where ``ros2 run`` looks. Installers correct the first
+line of scripts in ``bin/`` only, so these start the Python of their prefix by way of the shell.
+
+**Hooks** (``setup.bash`` and its like): those of every ROS prefix, to be sourced by people, and by
+the ``setup.bash`` of each workspace that is built on top.
+
+**Modules under their names in ROS**: those of ``launchers.MODULES``.
+"""
+
+from collections.abc import Iterable
+
+from environment import launchers
+
+PACKAGE = launchers.PACKAGE
+LIBRARY = 'lib/python3.12/site-packages'
+SHELLS = ('sh', 'bash', 'zsh')
+
+_BEGIN = """\
+#!/bin/sh
+# Of the wheel of amr_description: sets up its environment by itself.
+_amr_file=$0
+[ ! -h "$0" ] || _amr_file=$(readlink -f -- "$0")
+_amr_root=$(CDPATH='' cd -- "$(dirname -- "$_amr_file")/.." && pwd -P) || exit
+_amr_prefix=$_amr_root
+. "$_amr_prefix/local_setup.sh"
+_amr_libraries=$_amr_root/lib
+for _amr_file in "$_amr_root"/{library}/ros_*.libs; do
+    _amr_libraries=$_amr_libraries:$_amr_file
+done
+export _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
+export LD_LIBRARY_PATH="$_amr_libraries${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}"
+"""
+_COMMAND = """\
+exec "$_amr_root/bin/python" -P -c '{imports}
+import amr_description.cli.__main__' {command} "$@"
+"""
+_BRINGUP = """\
+exec "$_amr_root/bin/python" "$_amr_root/lib/amr_description/bringup" "$@"
+"""
+
+# The shell reads the second line and is replaced by Python, to which it is part of a string;
+# amr_description/bringup/environment.py knows that line.
+_EXECUTABLE = """\
+#!/bin/sh
+'''exec' "${{0%/*}}/../../bin/python" "$0" "$@"
+'''
+{imports}
+from {module} import {name}
+
+sys.exit({name}{attributes}())
+"""
+# A workspace may have a package of the same name, in front on PYTHONPATH. The folder does not stay
+# in front: modules of the standard library would be looked for among all packages first.
+_IMPORTS = """\
+import sys
+
+sys.path.insert(0, sys.prefix + "/{library}")
+import amr_description
+
+del sys.path[0]"""
+
+_LOCAL_FILE = {'bash': '${BASH_SOURCE[0]}', 'zsh': '${(%):-%x}'}
+
+_LOCAL_SETUP_SH = """\
+# Of the wheel of amr_description: this virtual environment as a ROS prefix. bash and zsh know
+# where it is; another shell is told by the setup.sh of a workspace.
+_amr_prefix=${_amr_prefix:-${COLCON_CURRENT_PREFIX-}}
+if [ -z "$_amr_prefix" ]; then
+    echo 'setup.sh cannot tell its own folder in this shell; in bash: source setup.bash' >&2
+    return 1
+fi
+case ":${PATH-}:" in
+    *:"$_amr_prefix/bin":*) ;;
+    *) export PATH="$_amr_prefix/bin${PATH:+:$PATH}" ;;
+esac
+case ":${AMENT_PREFIX_PATH-}:" in
+    *:"$_amr_prefix":*) ;;
+    *) export AMENT_PREFIX_PATH="$_amr_prefix${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}" ;;
+esac
+unset _amr_prefix
+export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
+export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
+"""
+_LOCAL_SETUP = """\
+# Of the wheel of amr_description.
+_amr_prefix=$(CDPATH='' cd -- "$(dirname -- "{file}")" >/dev/null && pwd -P)
+. "$_amr_prefix/local_setup.sh"
+"""
+_SETUP = """\
+# Of the wheel of amr_description: source this as you would that of /opt/ros/jazzy.
+_amr_root=$(CDPATH='' cd -- "$(dirname -- "{file}")" >/dev/null && pwd -P)
+. "$_amr_root/local_setup.{shell}"
+case $- in
+    *i*) # Tab completes the words of ros2, in a shell that somebody types into.
+        {before}eval "$(_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 "$_amr_root/bin/python" -P \\
+            -m argcomplete.scripts.register_python_argcomplete ros2)"
+        ;;
+esac
+unset _amr_root
+"""
+_FILE = {'bash': '${BASH_SOURCE[0]}', 'zsh': '${(%):-%x}'}
+_BEFORE = {
+    'bash': '',
+    'zsh': """\
+command -v compdef >/dev/null || { autoload -Uz compinit && compinit -i -D; }
+        """,
+}
+
+_MODULE = """\
+# Of the wheel of amr_description: the module of this name is that of amr_description here.
+import os
+
+import amr_description as _package
+
+# A workspace may have a package of that name, in front on PYTHONPATH: this is found behind it.
+_modules = os.path.join(os.path.abspath(__file__ + {up!r}), 'amr_description')
+if _modules not in _package.__path__:
+    _package.__path__.append(_modules)
+from amr_description.{ours} import *  # noqa: E402, F403
+"""
+
+
+def commands() -> dict[str, str]:
+    """Return the text of each command, by its name in ``bin/``."""
+    begin = _BEGIN.format(library=LIBRARY)
+    imports = _IMPORTS.format(library=LIBRARY)
+    found = {
+        name: begin + _COMMAND.format(imports=imports, command=name) for name in launchers.COMMANDS
+    }
+    return {**found, 'bringup': begin + _BRINGUP}
+
+
+def executables(console_scripts: Iterable[str]) -> dict[str, str]:
+    """
+    Return the text of each executable, by its name in ``lib/amr_description/``.
+
+    Args:
+        console_scripts: entry points, ``talker = amr_description.entry:nodes.talker.main``.
+    """
+    found = {}
+    for line in console_scripts:
+        script, _, entry_point = (part.strip() for part in line.partition('='))
+        module, _, path = entry_point.partition(':')
+        name, dot, attributes = path.partition('.')
+        found[script] = _EXECUTABLE.format(
+            imports=_IMPORTS.format(library=LIBRARY),
+            module=module,
+            name=name,
+            attributes=dot + attributes,
+        )
+    return found
+
+
+def hooks() -> dict[str, str]:
+    """Return the text of each hook, by its name in the prefix."""
+    found = dict.fromkeys(('setup.sh', 'local_setup.sh'), _LOCAL_SETUP_SH)
+    for shell, file in _FILE.items():
+        before = _BEFORE[shell]
+        found[f'setup.{shell}'] = _SETUP.format(file=file, shell=shell, before=before)
+        found[f'local_setup.{shell}'] = _LOCAL_SETUP.format(file=file)
+    return found
+
+
+def modules() -> dict[str, str]:
+    """Return the text of each module under its name in ROS, by its path in site-packages."""
+    packages = {name.partition('.')[0] for name in launchers.MODULES}
+    found = {path: text for path, text in launchers.MARKER.items() if '.dist-info/' not in path}
+    for name, ours in launchers.MODULES.items():
+        path = f'{name}/__init__.py' if name in packages else f'{name.replace(".", "/")}.py'
+        up = '/..' * (path.count('/') + 1)
+        found[path] = _MODULE.format(up=up, ours=ours) if ours else ''
+    return found
+
+
+def plugins() -> str:
+    """Return the entry points that those modules have, for the metadata of the wheel."""
+    return '\n'.join(
+        text for path, text in launchers.MARKER.items() if path.endswith('/entry_points.txt')
+    )
