@@ -1,13 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Which system the compiled libraries of a wheel need, read by ``objdump``.
+Which system the compiled libraries of a wheel need, read by ``objdump`` and ``readelf``.
 
 The loader refuses a library that names a version of a symbol that its glibc or libstdc++ does not
 have. manylinux_2_28 (PEP 600) is what every Linux with glibc 2.28 and the libstdc++ of GCC 8 has.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 import os
 from pathlib import Path
 import re
@@ -33,25 +33,34 @@ SYSTEM_LIBRARIES = {
     'librt.so.1',
     'libstdc++.so.6',
 }
+_COMMENT = re.compile(r'^ +\[ *[0-9a-f]+\] +(.+)$', re.MULTILINE)
 _NEEDED = re.compile(r'^ +NEEDED +(\S+)$', re.MULTILINE)
 _VERSION = re.compile(r'^ +0x[0-9a-f]+ 0x[0-9a-f]+ \d+ (\S+)$', re.MULTILINE)
 
 
 def headers(library: Path) -> str:
     """Return what ``objdump -p`` prints of a library. Raises ReleaseError."""
+    return _printed('objdump', '-p', library)
+
+
+def compilers(libraries: Iterable[Path]) -> list[str]:
+    """Return the compilers that left their names in libraries. Raises ReleaseError."""
+    printed = _printed('readelf', '--string-dump=.comment', *libraries)
+    return sorted({' '.join(name.split()) for name in _COMMENT.findall(printed)})
+
+
+def _printed(program: str, *words: str | Path) -> str:
+    """Return what a program of binutils prints. Raises ReleaseError."""
     try:
         done = subprocess.run(
-            ['objdump', '-p', library],
-            capture_output=True,
-            text=True,
-            env={**os.environ, 'LC_ALL': 'C'},
+            [program, *words], capture_output=True, text=True, env={**os.environ, 'LC_ALL': 'C'}
         )
     except FileNotFoundError:
         raise ReleaseError(
-            'there is no objdump here, which says what a library needs (Debian, Ubuntu: binutils)'
+            f'there is no {program} here, which reads libraries (Debian, Ubuntu: binutils)'
         ) from None
     if done.returncode != 0:
-        raise ReleaseError(f'objdump: {done.stderr.strip()}')
+        raise ReleaseError(f'{program}: {done.stderr.strip()}')
     return done.stdout
 
 

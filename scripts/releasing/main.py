@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from datetime import datetime, UTC
 import os
 from pathlib import Path
-import platform
 import shutil
 import sys
 import tempfile
@@ -53,8 +52,9 @@ ros2 launch amr_description simulation
 
 ## How it was made
 
-By `scripts/release` from commit {commit}, with Python {python}; all files in the wheels have
-the time {epoch} (`SOURCE_DATE_EPOCH`). The compiled interfaces need {needs} at most.
+By `scripts/release` from commit {commit}; all files in the wheels
+have the time {epoch} (`SOURCE_DATE_EPOCH`). The compiled interfaces, made by {compilers}, need
+{needs}.
 """
 
 
@@ -89,7 +89,7 @@ def release(
         fresh.mkdir()
         say('building the wheels ...')
         own = [package_wheel.build(root, checkout.venv, fresh, epoch, environment)]
-        interfaces, needs = _interfaces(checkout, fresh, epoch, environment)
+        interfaces, needs, compilers = _interfaces(checkout, fresh, epoch, environment)
         own += [interfaces, *_from_sources(checkout, fresh, epoch, environment)]
         say('asking the index of pip for the hashes of all that they need ...')
         text = _requirements(checkout, version, own, environment)
@@ -101,8 +101,8 @@ def release(
             sums=SUMS,
             requirements=REQUIREMENTS,
             commit=sources.git(root, 'rev-parse', 'HEAD').strip(),
-            python=platform.python_version(),
             epoch=epoch,
+            compilers=', '.join(compilers),
             needs=', '.join(f'{kind} {number}' for kind, number in needs.items()),
         )
         (fresh / NOTES).write_text(notes, encoding='utf-8')
@@ -141,8 +141,8 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
 
 def _interfaces(
     checkout: Checkout, folder: Path, epoch: int, environment: Mapping[str, str]
-) -> tuple[Path, dict[str, str]]:
-    """Write the wheel of the interfaces; return its path and what it needs of the system."""
+) -> tuple[Path, dict[str, str], list[str]]:
+    """Write the wheel of the interfaces; return its path, what it needs, and who compiled it."""
     built = interface_wheel.built(
         checkout.interfaces,
         checkout.requirements,
@@ -155,8 +155,9 @@ def _interfaces(
             archive.extractall(unpacked)
         provided = {path.name for path in (checkout.venv / 'lib').glob('*.so*')}
         needs = binaries.check(Path(unpacked), provided)
+        compilers = binaries.compilers(Path(unpacked).rglob('*.so*'))
     members = archives.retagged(archives.read(built), f'cp312-cp312-{binaries.PLATFORM}')
-    return archives.write(members, folder, epoch), needs
+    return archives.write(members, folder, epoch), needs, compilers
 
 
 def _from_sources(

@@ -16,10 +16,11 @@ line of scripts in ``bin/`` only, so these start the Python of their prefix by w
 **Hooks** (``setup.bash`` and its like): those of every ROS prefix, to be sourced by people, and by
 the ``setup.bash`` of each workspace that is built on top.
 
-**Modules under their names in ROS**: those of ``launchers.MODULES``.
+**Modules under their names in ROS, packages of CMake**: those of ``launchers``.
 """
 
 from collections.abc import Iterable
+from pathlib import Path
 
 from environment import launchers
 
@@ -76,22 +77,12 @@ _LOCAL_FILE = {'bash': '${BASH_SOURCE[0]}', 'zsh': '${(%):-%x}'}
 _LOCAL_SETUP_SH = """\
 # Of the wheel of amr_description: this virtual environment as a ROS prefix. bash and zsh know
 # where it is; another shell is told by the setup.sh of a workspace.
-_amr_prefix=${_amr_prefix:-${COLCON_CURRENT_PREFIX-}}
+_amr_prefix=${{_amr_prefix:-${{COLCON_CURRENT_PREFIX-}}}}
 if [ -z "$_amr_prefix" ]; then
     echo 'setup.sh cannot tell its own folder in this shell; in bash: source setup.bash' >&2
     return 1
 fi
-case ":${PATH-}:" in
-    *:"$_amr_prefix/bin":*) ;;
-    *) export PATH="$_amr_prefix/bin${PATH:+:$PATH}" ;;
-esac
-case ":${AMENT_PREFIX_PATH-}:" in
-    *:"$_amr_prefix":*) ;;
-    *) export AMENT_PREFIX_PATH="$_amr_prefix${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}" ;;
-esac
-unset _amr_prefix
-export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
-export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
+{exports}unset _amr_prefix
 """
 _LOCAL_SETUP = """\
 # Of the wheel of amr_description.
@@ -165,12 +156,21 @@ def executables(console_scripts: Iterable[str]) -> dict[str, str]:
 
 def hooks() -> dict[str, str]:
     """Return the text of each hook, by its name in the prefix."""
-    found = dict.fromkeys(('setup.sh', 'local_setup.sh'), _LOCAL_SETUP_SH)
+    _, _, exports = launchers.LOCAL_SETUP.partition('\n')
+    exports = exports.format(venv='"$_amr_prefix"', bin='"$_amr_prefix/bin"')
+    text = _LOCAL_SETUP_SH.format(exports=exports)
+    found = dict.fromkeys(('setup.sh', 'local_setup.sh'), text)
     for shell, file in _FILE.items():
         before = _BEFORE[shell]
         found[f'setup.{shell}'] = _SETUP.format(file=file, shell=shell, before=before)
         found[f'local_setup.{shell}'] = _LOCAL_SETUP.format(file=file)
     return found
+
+
+def cmake_packages() -> dict[str, str]:
+    """Return the text of each file of a package of CMake, by its path in the prefix."""
+    files = launchers.cmake_packages(Path('prefix'))
+    return {str(path.relative_to('prefix')): text for path, text in files.items()}
 
 
 def modules() -> dict[str, str]:

@@ -18,6 +18,7 @@ import pytest
 from releasing import archives, binaries, locks, main, ReleaseError, sources, versions
 from releasing.archives import Member
 from support.paths import ROOT
+import yaml
 
 LOCK = (ROOT / 'scripts/requirements.lock').read_text()
 CHANGELOG = """# Changelog
@@ -240,6 +241,7 @@ def test_a_library_is_read_by_objdump(tmp_path, monkeypatch):
     shutil.copy(Path(get_package_prefix('tf2_msgs'), 'lib', LIBRARY), tmp_path)
     provided = {path.name for path in Path(sys.prefix, 'lib').glob('*.so*')}
     assert binaries.check(tmp_path, provided)['GLIBC'].startswith('2.')
+    assert [name for name in binaries.compilers(tmp_path.iterdir()) if re.search(r'\d', name)]
     with pytest.raises(ReleaseError, match=r'needs lib\S+, which no wheel has \('):
         binaries.check(tmp_path, ())
     (tmp_path / 'broken.so').write_text('text')
@@ -309,3 +311,12 @@ def test_a_folder_with_other_things_is_not_replaced(tmp_path):
 
 def test_wheels_without_their_own_are_known():
     assert {*WITHOUT_WHEEL} <= {*pinned_versions(LOCK)}
+
+
+def test_the_workflow_makes_what_the_script_makes():
+    workflow = yaml.safe_load((ROOT / '.github/workflows/release.yml').read_text())
+    steps = [step for job in workflow['jobs'].values() for step in job['steps']]
+    commands = '\n'.join(step.get('run', '') for step in steps)
+    assert 'scripts/release "${GITHUB_REF_NAME#v}"\n' in commands
+    for name in (main.SUMS, main.NOTES):
+        assert f' {name}' in commands or f'/{name}' in commands
