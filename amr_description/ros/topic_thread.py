@@ -24,6 +24,9 @@ class TopicThread:
     """
     A subscription, and its thread; to be ended before its node is destroyed.
 
+    A shutdown of the context ends the thread, too: who is asked to stop while making the node has
+    none that could be destroyed, and the process waits for its threads.
+
     What ``handle`` raises, which is a bug, ends the thread, and is raised in that of the node's
     executor.
     """
@@ -77,6 +80,7 @@ class TopicThread:
 
     def start(self) -> None:
         """Begin to take messages."""
+        self._context.on_shutdown(self._leave)
         self._thread.start()
 
     def wake(self) -> None:
@@ -85,11 +89,15 @@ class TopicThread:
 
     def end(self) -> None:
         """Take no more messages, and wait for the one that is handled."""
-        self._is_ending = True
-        self._awake.set()
-        self._waiter.wake()
+        self._leave()
         self._thread.join()
         self._waiter.destroy()
+
+    def _leave(self) -> None:
+        if not self._is_ending:
+            self._is_ending = True
+            self._awake.set()
+            self._waiter.wake()
 
     def _run(self) -> None:
         try:

@@ -75,6 +75,18 @@ class Listener(PollingNode):
         super().destroy_node()
 
 
+def test_the_thread_of_a_node_that_nobody_destroys_ends_with_the_context(talker):
+    """As when a request to stop comes while the node is made."""
+    listener = Listener()
+    threads = {each for each in threading.enumerate() if each.name == 'words'}
+    assert len(threads) == 1
+    rclpy.try_shutdown()
+    for thread in threads:
+        thread.join(PATIENCE)
+        assert not thread.is_alive()
+    listener.destroy_node()
+
+
 @pytest.mark.parametrize('executor', [EventsExecutor, SingleThreadedExecutor])
 def test_messages_are_handled_once_each_in_their_order(talker, executor):
     words = [str(number) for number in range(10)]
