@@ -265,12 +265,16 @@ def test_a_tree_is_a_process_its_session_and_all_their_descendants():
 
 
 def test_a_busy_process_uses_the_processor():
-    busy = subprocess.Popen([sys.executable, '-c', 'while True: pass'])
+    busy, idle = (
+        subprocess.Popen([sys.executable, '-c', code], stdin=subprocess.PIPE)
+        for code in ('while True: pass', 'input()')
+    )
     try:
-        used = usages([busy.pid], 0.3)[busy.pid]
-        assert used.cpu > 0.05  # also where many share it
-        assert used.memory > 1_000_000
+        used = usages([busy.pid, idle.pid], 0.3)
+        assert used[busy.pid].cpu > used[idle.pid].cpu  # however many share it
+        assert used[busy.pid].memory > 1_000_000
     finally:
-        busy.kill()
-        busy.wait()
+        for process in (busy, idle):
+            process.kill()
+            process.communicate()
     assert start_time(busy.pid) is None
