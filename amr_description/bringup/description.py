@@ -185,9 +185,9 @@ class Stack(Member):
     on_shutdown: StopHandler | None = None
     """Called once, before the first process is signalled."""
     next_steps: str = ''
-    """Logged after ``ready in … s: ``: what a user would type next."""
+    """Logged after ``ready in … s:``: what a user would type next."""
     notes: Sequence[tuple[Level, str]] = ()
-    """Logged before the first node starts; see :func:`input_files.notes_on`."""
+    """Logged before the first node starts; see ``notes_on``."""
     patience: InitVar[float | None] = None
     """Alias of ``timeout``."""
 

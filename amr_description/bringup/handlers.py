@@ -74,7 +74,7 @@ class HandlerResult:
     """What the scheduler does about the return value of an exit handler."""
 
     members: Sequence[Member] = ()
-    """What to start; the condition of each node contains :func:`conditions.on_request`."""
+    """What to start; the condition of each node contains :func:`.on_request`."""
     shutdown: Shutdown | None = None
 
 

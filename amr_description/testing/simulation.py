@@ -407,7 +407,7 @@ class Simulation:
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
-        Spin :attr:`node` until a condition holds; return what it returned. No time passes.
+        Spin ``node`` until a condition holds; return what it returned. No time passes.
 
         Args:
             condition: Called repeatedly; holds when its result is true.

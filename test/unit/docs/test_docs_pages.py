@@ -93,7 +93,7 @@ def test_the_world_of_the_page_is_one(tmp_path):
 
 
 def test_the_glossary_is_used_and_in_order():
-    entries = re.findall(r'^### (.*)$', GLOSSARY.text, re.MULTILINE)
+    entries = re.findall(r'^## (.*)$', GLOSSARY.text, re.MULTILINE)
     assert entries == sorted(entries, key=str.lower)
     texts = ''.join(Page(name).text for name in NAMES)
     unused = {each for each in anchors(GLOSSARY.path) if f'glossary.md#{each})' not in texts}
