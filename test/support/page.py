@@ -6,6 +6,7 @@ from contextlib import ExitStack
 import json
 import socket
 import threading
+import time
 from urllib.parse import urlsplit
 
 from support.ros_processes import PATIENCE
@@ -13,6 +14,9 @@ from websockets.exceptions import ConnectionClosed
 
 from amr_description.viewer.client import page_socket
 from amr_description.viewer.protocol import PROTOCOL
+
+NOW_AND_THEN = 0.02
+"""s between two looks at what a test waits for."""
 
 
 def open_socket(url, subprotocols=(PROTOCOL,), **options):
@@ -91,10 +95,17 @@ class Page:
         return driver is not None and driver['client'] is None
 
     def wait(self, condition):
-        """Wait until a condition on what came is something; return it."""
+        """
+        Wait until a condition is something; return it.
+
+        It is looked at whenever something came, and now and then, as it may be about more than that.
+        """
+        deadline = time.monotonic() + PATIENCE
         with self._changed:
-            assert self._changed.wait_for(condition, PATIENCE), f'in vain: {self.messages}'
-            return condition()
+            while not (found := condition()):
+                assert time.monotonic() < deadline, f'in vain: {self.messages}'
+                self._changed.wait(NOW_AND_THEN)
+        return found
 
     def wait_closed(self):
         """Wait for the end of the connection; return code and reason of the close."""

@@ -119,3 +119,14 @@ test('a picture is drawn once, and its place goes when it is switched off', asyn
   await drawn();
   assert.equal(panel.element.querySelector('canvas'), null);
 });
+
+test('a sample is shown also where no newer state has come', async () => {
+  const { sensing, panel } = shown(SCAN);
+  const state = { ...unknownState(LAYOUT), time: 10 };
+  panel.pulse?.(state);
+  await drawn();
+  sensing.take(scan('laser'));
+  panel.pulse?.(state);
+  await drawn();
+  assert.deepEqual(texts(panel, '.measured'), ['3 rays · nearest 0.50 m']);
+});

@@ -38,7 +38,8 @@ export function panelOf(app: App, about: About, Body: FunctionComponent<PanelPro
       return about.topics?.() ?? [];
     },
     pulse: (latest) => {
-      state.value = latest;
+      // Another object also where no newer state has come: a sample, which no signal follows, has.
+      state.value = latest === state.peek() ? { ...latest } : latest;
     },
   };
 }
