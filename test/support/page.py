@@ -98,7 +98,7 @@ class Page:
         """
         Wait until a condition is something; return it.
 
-        It is looked at whenever something came, and now and then, as it may be about more than that.
+        It is looked at whenever something came, and now and then: it may be about more than that.
         """
         deadline = time.monotonic() + PATIENCE
         with self._changed:
