@@ -154,7 +154,11 @@ def _interfaces(
         with zipfile.ZipFile(built) as archive:
             archive.extractall(unpacked)
         provided = {path.name for path in (checkout.venv / 'lib').glob('*.so*')}
-        needs = binaries.check(Path(unpacked), provided)
+        try:
+            needs = binaries.check(Path(unpacked), provided)
+        except ReleaseError as error:
+            kept = f'; remove {built.parent} first, where this one is kept'
+            raise ReleaseError(f'{error}{kept}') from None
         compilers = binaries.compilers(Path(unpacked).rglob('*.so*'))
     members = archives.retagged(archives.read(built), f'cp312-cp312-{binaries.PLATFORM}')
     return archives.write(members, folder, epoch), needs, compilers
