@@ -46,7 +46,8 @@ html_theme = 'furo'
 html_title = 'amr_description'
 html_copy_source = False
 html_show_sphinx = False
-html_static_path: list[str] = []
+html_static_path = ['site.css']
+html_css_files = ['site.css']
 
 
 def navigation(index: str) -> dict[str, list[str]]:
@@ -65,7 +66,7 @@ def add_navigation(app: Sphinx, page: str, source: list[str]) -> None:
     """Put the navigation below the front page, where a theme looks for it."""
     if page == FRONT:
         index = (ROOT / f'{INDEX}.md').read_text(encoding='utf-8')
-        for heading, pages in navigation(index).items():
+        for heading, pages in {**navigation(index), 'Index': [INDEX]}.items():
             trees = '\n'.join(pages)
             source[0] += f'\n```{{toctree}}\n:hidden:\n:caption: {heading}\n\n{trees}\n```\n'
 
