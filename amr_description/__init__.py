@@ -19,6 +19,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``
 ``bringup/``            the launcher: stacks, conditions, processes
 ``cli/``                the ``ros2`` command and ``check_urdf``, one file a verb
+``workspace/``          what ``colcon build`` of packages of users needs
 ``testing/``            a simulation in lock-step, for tests of users
 
 ``errors.py``           every error that is raised on purpose

@@ -60,6 +60,7 @@ def completed(members: Mapping[str, Member]) -> dict[str, Member]:
     for folder, texts, executable in (
         (f'{data}/scripts', prefix_files.commands(), True),
         (f'{data}/data/lib/{prefix_files.PACKAGE}', prefix_files.executables(scripts), True),
+        (f'{data}/data', prefix_files.tools(), True),
         (f'{data}/data', prefix_files.hooks() | prefix_files.cmake_packages(), False),
         ('', prefix_files.modules(), False),
     ):

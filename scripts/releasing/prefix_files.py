@@ -16,6 +16,8 @@ line of scripts in ``bin/`` only, so these start the Python of their prefix by w
 **Hooks** (``setup.bash`` and its like): those of every ROS prefix, to be sourced by people, and by
 the ``setup.bash`` of each workspace that is built on top.
 
+**Tools** (``libexec/``): what colcon starts in place of CMake.
+
 **Modules under their names in ROS, packages of CMake**: those of ``launchers``.
 """
 
@@ -42,6 +44,9 @@ for _amr_file in "$_amr_root"/{library}/ros_*.libs; do
 done
 export _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
 export LD_LIBRARY_PATH="$_amr_libraries${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}"
+"""
+_ROOT_OF_TOOL = """\
+_amr_root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd -P) || exit
 """
 _COMMAND = """\
 exec "$_amr_root/bin/python" -P -c '{imports}
@@ -131,6 +136,18 @@ def commands() -> dict[str, str]:
         name: begin + _COMMAND.format(imports=imports, command=name) for name in launchers.COMMANDS
     }
     return {**found, 'bringup': begin + _BRINGUP}
+
+
+def tools() -> dict[str, str]:
+    """Return the text of what other programs start, by its path in the prefix."""
+    cmake = launchers.CMAKE.format(
+        python='"$_amr_root/bin/python"',
+        code=launchers.CMAKE_CODE,
+        build=f'"$_amr_root/{LIBRARY}"',
+        cmake=f'"$_amr_root/{LIBRARY}/cmake/data/bin/cmake"',
+    )
+    first, _, rest = cmake.partition('\n')
+    return {str(launchers.COLCONS_CMAKE): f'{first}\n{_ROOT_OF_TOOL}{rest}'}
 
 
 def executables(console_scripts: Iterable[str]) -> dict[str, str]:

@@ -47,6 +47,7 @@ ARROWS = {
     'message_filters': set(),
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
+    'workspace': set(),
     'control/ros': {'ros', 'control', 'controllers', 'hardware', 'model'},
     'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
     'viewer/ros': {'viewer', 'ros', 'model'},
@@ -58,7 +59,9 @@ ARROWS = {
 }
 # For nodes and tests of users, under their names in ROS.
 FOR_USERS = {'message_filters', 'sensor_msgs_py', 'ament_copyright'}
-ARROWS['nodes'] = ARROWS.keys() - {'bringup', 'cli', 'testing', 'amr_description'} - FOR_USERS
+ARROWS['nodes'] = (
+    ARROWS.keys() - {'bringup', 'cli', 'testing', 'amr_description', 'workspace'} - FOR_USERS
+)
 ROS = {
     'control/ros', 'sim/ros', 'viewer/ros', 'navigation/ros', 'ros', 'tf2_ros',
     'message_filters', 'sensor_msgs_py', 'nodes', 'cli', 'testing',
@@ -76,6 +79,7 @@ HOMES = {
     'collada': {'model'},
     'yourdfpy': {'model'},
     'simplejpeg': {'sim', 'viewer'},
+    'colcon_core': {'workspace'},
 }
 IMPURE = {
     'asyncio', 'multiprocessing', 'random', 'selectors', 'socket', 'subprocess', 'threading',

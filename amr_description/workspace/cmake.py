@@ -1,0 +1,166 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+CMake, as ``colcon build`` starts it here (``CMAKE_COMMAND``).
+
+colcon shows what a build wrote to stderr. That is too much where CMake misses a library, twelve
+lines for each, and too little where Ninja builds, which writes the errors of compilers and
+generators to stdout. So when CMake fails, this writes one line where the cause is known, else the
+words of CMake or of what it ran; the whole text goes to stdout, which is colcon's log.
+"""
+
+from collections.abc import Sequence
+import os
+from pathlib import Path
+import re
+import shutil
+import subprocess
+import sys
+
+from amr_description.workspace.cmake_errors import Missing, missing, package_of
+from amr_description.workspace.stand_ins import compiles_nothing, stand_in
+
+_COMPILERS = {'C': ('cc', 'gcc', 'clang'), 'CXX': ('c++', 'g++', 'clang++')}
+_FAILED = re.compile(r'^(FAILED: |ninja: error: |CMake Error)', re.MULTILINE)
+_INTERRUPTED = 130
+_NONE = '/bin/false'  # stands in for a compiler
+_NO_FEATURES = 'no known features'
+_NO_COMPILER = """\
+error: to compile C or C++ takes a compiler, and there was none on the PATH (Debian, Ubuntu: apt \
+install g++; then: colcon build --cmake-clean-cache)
+"""
+
+
+def main(cmake: str, arguments: Sequence[str]) -> int:
+    """
+    Run CMake; return its exit code.
+
+    Args:
+        cmake: its executable.
+        arguments: those of the command line.
+    """
+    first = arguments[0] if arguments else ''
+    if first == '--build':
+        folder = arguments[1] if len(arguments) > 1 else ''
+        if not _is_configured(folder) and 'help' in arguments:
+            return 1  # colcon asks what there is to install; Ninja would complain on its stderr
+        return _build([cmake, *arguments], folder)
+    if first.startswith('-') or not os.path.isdir(first):
+        os.execv(cmake, [cmake, *arguments])
+    return _configure([cmake, *arguments], first, _without_compiler(arguments))
+
+
+def _configure(command: list[str], source: str, stand_ins: list[str]) -> int:
+    """Configure the build of the package in ``source``, without what it can do without."""
+    more = list(stand_ins)
+    notes = ''
+    while True:
+        code, said = _run([*command, *more])
+        lacks = missing(said, source) if code else None
+        way_out, note = _without(lacks, Path(source)) if lacks else (None, '')
+        if not way_out or way_out in more:
+            break
+        sys.stdout.write(said)
+        more.append(way_out)
+        notes += note
+    if code and stand_ins and _NO_FEATURES in said:
+        said = _NO_COMPILER
+    _report(code, said, said, source)
+    if not code:
+        sys.stderr.write(notes)
+    return code
+
+
+def _run(command: list[str]) -> tuple[int, str]:
+    """Run CMake; return its exit code, and what it wrote to stderr."""
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, errors='replace') as process:
+        assert process.stderr
+        try:
+            said = process.stderr.read()
+        except KeyboardInterrupt:  # CMake was sent it, too
+            return _INTERRUPTED, ''
+    return process.returncode, said
+
+
+def _without(lacks: Missing, source: Path) -> tuple[str | None, str]:
+    """Return the argument to build a package without what it lacks, and what to say of it."""
+    if lacks.is_for_tests:
+        package = package_of(source)
+        return (
+            '-DBUILD_TESTING=OFF',
+            f'{package} is built without its tests, which need {lacks.name!r}: that is not here\n',
+        )
+    if not compiles_nothing(source):
+        return None, ''
+    return stand_in(lacks.name, Path('stand_ins').resolve()), ''
+
+
+def _build(command: list[str], folder: str) -> int:
+    """Build in ``folder``; what it prints is shown as it comes."""
+    printed: list[str] = []
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors='replace'
+    ) as process:
+        assert process.stdout
+        try:
+            for line in process.stdout:
+                printed.append(line)
+                sys.stdout.write(line)
+                sys.stdout.flush()
+        except KeyboardInterrupt:
+            return _INTERRUPTED
+    if process.returncode:
+        text = ''.join(printed)
+        failed = _FAILED.search(text)
+        if failed:
+            text = text[failed.start() :]
+        if text.startswith('FAILED: ') and _cached(folder, 'CMAKE_C(XX)?_COMPILER') == _NONE:
+            text = _NO_COMPILER
+        _report(process.returncode, text, '', _cached(folder, 'CMAKE_HOME_DIRECTORY'))
+    return process.returncode
+
+
+def _report(code: int, said: str, unwritten: str, source: str) -> None:
+    """Write why CMake failed to stderr, and to stdout what of its words is not there yet."""
+    line = missing(said, source) if code else None
+    if line:
+        sys.stdout.write(unwritten)
+        said = f'{line}\n'
+    sys.stdout.flush()
+    sys.stderr.write(said)
+
+
+def _without_compiler(arguments: Sequence[str]) -> list[str]:
+    """
+    Return what lets CMake go on where there is no compiler.
+
+    ``project(my_robot)`` asks for C and C++ although most packages that only install files never
+    compile anything. Where something is compiled, the build ends with :data:`_NO_COMPILER`.
+    """
+    if any('CMAKE_TOOLCHAIN_FILE' in argument for argument in arguments):
+        return []
+    more = []
+    for language, names in _COMPILERS.items():
+        variable = f'CMAKE_{language}_COMPILER'
+        if (
+            os.environ.get('CC' if language == 'C' else 'CXX')
+            or any(argument.startswith(f'-D{variable}=') for argument in arguments)
+            or any(map(shutil.which, names))
+        ):
+            continue
+        more += [f'-D{variable}={_NONE}', f'-D{variable}_FORCED=TRUE']
+    return more
+
+
+def _is_configured(folder: str) -> bool:
+    return any(os.path.exists(os.path.join(folder, name)) for name in ('build.ninja', 'Makefile'))
+
+
+def _cached(folder: str, variable: str) -> str:
+    """Return the value of a variable in the cache of ``folder``, a pattern; empty: not there."""
+    try:
+        cache = Path(folder, 'CMakeCache.txt').read_text(encoding='utf-8', errors='replace')
+    except OSError:
+        return ''
+    found = re.search(rf'^{variable}:\w+=(?P<value>.*)$', cache, re.MULTILINE)
+    return found['value'] if found else ''
