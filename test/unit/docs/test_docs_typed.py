@@ -1,0 +1,192 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Every command line of the documentation is typed by a test, letter for letter.
+
+A test that types a page names the page in its file, and the beginning of the line as a string:
+``shell.run('ros2 topic list')``. A line that stands on several pages is typed once.
+"""
+
+import ast
+from functools import cache
+from pathlib import Path
+import re
+
+from support.doc_pages import Page, ROOT
+
+FRONT, CONTRIBUTING = '../README.md', '../CONTRIBUTING.md'
+NAMES = [FRONT, CONTRIBUTING, *sorted(path.name for path in (ROOT / 'docs').glob('*.md'))]
+FENCE = re.compile(r'^ *```(\S*)$')
+# Lines that no test types as they stand -> the test that does what they do, or why none can.
+ELSEWHERE = {
+    ('../README.md', 'scripts/test'): 'it would run the tests in the tests',
+    ('../CONTRIBUTING.md', 'python -m pytest test/unit'): 'it would run the tests in the tests',
+    ('../CONTRIBUTING.md', 'scripts/setup'): 'test/tooling/test_setup.py',
+    ('benchmarks.md', 'scripts/bench'): 'test/ros/benchmarks/test_parts.py',
+    ('benchmarks.md', 'source scripts/activate; python -m benchmarks.cycle'): (
+        'test/ros/benchmarks/test_parts.py'
+    ),
+    ('install.md', 'scripts/setup'): 'test/tooling/test_setup.py',
+    ('install.md', 'ros/bin/check_urdf'): 'test/system/docs/test_docs_pip.py',
+    ('navigation.md', 'scripts/run navigation urdf:='): (
+        'test/unit/bringup/test_bringup_navigation.py'
+    ),
+    ('navigation.md', 'scripts/run navigation navigator:=false map:=none'): (
+        'test/system/navigation/test_navigation_stack.py'
+    ),
+    ('navigation.md', 'scripts/run navigation map:=none'): (
+        'test/system/navigation/test_navigation_stack.py'
+    ),
+    ('navigation.md', 'ros2 run amr_description check_navigation'): (
+        'test/system/docs/test_docs_check_navigation.py'  # types whatever is in that block
+    ),
+    ('navigation.md', 'ros2 run amr_description scan_localizer'): (
+        'test/ros/navigation/test_scan_localizer.py'
+    ),
+    ('navigation.md', 'ros2 run amr_description truth_localizer'): (
+        'test/system/navigation/test_navigation_stack.py'
+    ),
+    ('navigation.md', 'ros2 run teleop_twist_keyboard'): 'test/system/nodes/test_teleop.py',
+    ('navigation.md', 'ros2 launch nav2_bringup'): 'on another machine, with Nav2',
+    ('navigation.md', 'ros2 topic pub -1 /goal_pose'): 'on another machine, with Nav2',
+    ('navigation.md', 'ros2 launch slam_toolbox'): 'on another machine, with slam_toolbox',
+    ('ros2_control.md', 'ros2 launch amr_description mock'): (
+        'test/system/bringup/test_bringup_runs.py'
+    ),
+    ('sensors.md', 'ros2 launch amr_description simulation urdf:=rover.urdf.xacro bridge:='): (
+        'test/system/sim/test_sensors_of_public_robots.py'
+    ),
+    ('simulator.md', 'scripts/run world:=my_world.xml'): 'test/unit/docs/test_docs_pages.py',
+    ('tutorial.md', 'ros2 run amr_description listener'): (
+        'test/system/docs/test_tutorial.py'  # with the name of the package beside it
+    ),
+    ('tutorial.md', 'scripts/run display'): 'test/system/docs/test_walk_robot_developer.py',
+    ('two_machines.md', 'scripts/run simulation --discovery'): (
+        'test/system/docs/test_docs_machines.py'
+    ),
+    ('two_machines.md', 'ROS_DOMAIN_ID=1'): (
+        'test/system/docs/test_docs_machines.py'  # puts the variable before the line
+    ),
+    ('watch_a_running_stack.md', 'ros2 launch amr_description teleop'): (
+        'test/system/nodes/test_teleop_stack.py'
+    ),
+    ('wheeled_controllers.md', 'ros2 run controller_manager spawner mecanum'): (
+        'test/system/control/test_spawner.py'
+    ),
+    ('write_your_own_hardware.md', 'ros2 launch amr_description serial port:=/dev/ttyUSB0'): (
+        'with a board on that port'
+    ),
+    ('write_your_own_hardware.md', 'ros2 run amr_description motor_board'): (
+        'test/system/docs/test_docs_by_hand.py'  # with a port of its own
+    ),
+    ('your_own_robot.md', 'colcon test'): 'test/system/docs/test_walk_ci_engineer.py',
+}
+
+
+def fenced(page):
+    """Yield (number of its first line, language, lines) of each block of a page."""
+    language, begin, lines = None, 0, []
+    for number, line in enumerate(page.text.splitlines(), 1):
+        fence = FENCE.match(line)
+        if fence and language is None:
+            language, begin, lines = fence[1], number + 1, []
+        elif fence:
+            yield begin, language, lines
+            language = None
+        elif language is not None:
+            lines.append(line)
+
+
+def commands(page):
+    """Yield (number, line) of each command line; one that goes on below is one."""
+    for begin, language, lines in fenced(page):
+        if language not in ('bash', 'console'):
+            continue
+        text = ''
+        for number, line in enumerate(lines, begin):
+            if language == 'console' and not text and not line.startswith('$ '):
+                continue
+            text += line.strip().removeprefix('$ ')
+            if text.endswith('\\'):
+                text = text.removesuffix('\\')
+            elif text:
+                yield number, ' '.join(re.sub(r'\s+#\s.*', '', text).split())
+                text = ''
+
+
+@cache
+def texts_of_tests():
+    """For each test file that names a page: (the names of pages in it, its other strings)."""
+    found = []
+    for path in sorted((ROOT / 'test').rglob('test_*.py')):
+        text = path.read_text(encoding='utf-8')
+        if '.md' in text and path != Path(__file__):
+            strings = {
+                ' '.join(node.value.replace('\\\n', ' ').split())
+                for node in ast.walk(ast.parse(text))
+                if isinstance(node, ast.Constant) and isinstance(node.value, str)
+            }
+            found.append((strings & {*NAMES}, {each for each in strings if ' ' in each}))
+    return found
+
+
+def chapters(page):
+    """The command lines of each chapter of a page: tests read some pages by chapters."""
+    heads = [n for n, line in enumerate(page.text.splitlines(), 1) if line.startswith('## ')]
+    found = {}
+    for number, line in commands(page):
+        found.setdefault(sum(head < number for head in heads), []).append(line)
+    return list(found.values())
+
+
+def typed_lines(name):
+    """The lines of a page that its tests type: the first that begins as a string of theirs."""
+    typed = {'source scripts/activate', GO}  # arguments of support.shells
+    for pages, strings in texts_of_tests():
+        for lines in chapters(Page(name)) if name in pages else ():
+            for string in strings:
+                typed |= {next((line for line in lines if line.startswith(string)), '')}
+                typed |= {line for line in lines if line in string}
+    return typed
+
+
+GO = 'cd examples/rover'
+
+
+def is_elsewhere(name, line):
+    return any(name == page and line.startswith(begin) for page, begin in ELSEWHERE)
+
+
+def test_every_block_says_what_it_is():
+    assert [
+        f'{name}:{begin - 1}'
+        for name in NAMES
+        for begin, language, _ in fenced(Page(name))
+        if not language
+    ] == []
+
+
+def test_every_line_is_typed():
+    """A line that stands on several pages is typed of one of them."""
+    typed = set().union(*map(typed_lines, NAMES))
+    assert [
+        f'{name}:{number}: {line}'
+        for name in NAMES
+        for number, line in commands(Page(name))
+        if line not in typed and not is_elsewhere(name, line)
+    ] == []
+
+
+def test_what_is_not_typed_has_a_reason():
+    typed = set().union(*map(typed_lines, NAMES))
+    for (name, begin), reason in ELSEWHERE.items():
+        lines = [line for _, line in commands(Page(name)) if line.startswith(begin)]
+        assert lines, (name, begin)
+        assert not {*lines} <= typed, (name, begin)
+        assert (ROOT / reason).is_file() or not reason.startswith('test/'), reason
+
+
+def test_a_line_that_nobody_types_is_found(tmp_path):
+    page = Page('README.md')
+    page.text = '```bash\nros2 run a \\\n  --b  # why\n\n```\n```console\n$ c d\nsaid\n```\n'
+    assert [*commands(page)] == [(3, 'ros2 run a --b'), (7, 'c d')]
