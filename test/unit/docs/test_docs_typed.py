@@ -32,10 +32,10 @@ ELSEWHERE = {
         'test/unit/bringup/test_bringup_navigation.py'
     ),
     ('navigation.md', 'scripts/run navigation navigator:=false map:=none'): (
-        'test/system/navigation/test_navigation_stack.py'
+        'test/unit/bringup/test_bringup_navigation.py'
     ),
     ('navigation.md', 'scripts/run navigation map:=none'): (
-        'test/system/navigation/test_navigation_stack.py'
+        'test/unit/bringup/test_bringup_navigation.py'
     ),
     ('navigation.md', 'ros2 run amr_description check_navigation'): (
         'test/system/docs/test_docs_check_navigation.py'  # types whatever is in that block
