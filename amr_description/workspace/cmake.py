@@ -18,7 +18,7 @@ import subprocess
 import sys
 
 from amr_description.workspace.cmake_errors import Missing, missing, package_of
-from amr_description.workspace.stand_ins import compiles_nothing, stand_in
+from amr_description.workspace.stand_ins import compiles_nothing, known_beforehand, stand_in
 
 _COMPILERS = {'C': ('cc', 'gcc', 'clang'), 'CXX': ('c++', 'g++', 'clang++')}
 _FAILED = re.compile(r'^(FAILED: |ninja: error: |CMake Error)', re.MULTILINE)
@@ -50,20 +50,21 @@ def main(cmake: str, arguments: Sequence[str]) -> int:
     return _configure([cmake, *arguments], first, _without_compiler(arguments))
 
 
-def _configure(command: list[str], source: str, stand_ins: list[str]) -> int:
+def _configure(command: list[str], source: str, compilers: list[str]) -> int:
     """Configure the build of the package in ``source``, without what it can do without."""
-    more = list(stand_ins)
+    folder, can_do_without = Path(source), compiles_nothing(Path(source))
+    more = [*compilers, *(known_beforehand(folder, _stand_ins()) if can_do_without else ())]
     notes = ''
     while True:
         code, said = _run([*command, *more])
         lacks = missing(said, source) if code else None
-        way_out, note = _without(lacks, Path(source)) if lacks else (None, '')
+        way_out, note = _without(lacks, folder, can_do_without) if lacks else (None, '')
         if not way_out or way_out in more:
             break
         sys.stdout.write(said)
         more.append(way_out)
         notes += note
-    if code and stand_ins and _NO_FEATURES in said:
+    if code and compilers and _NO_FEATURES in said:
         said = _NO_COMPILER
     _report(code, said, said, source)
     if not code:
@@ -82,7 +83,7 @@ def _run(command: list[str]) -> tuple[int, str]:
     return process.returncode, said
 
 
-def _without(lacks: Missing, source: Path) -> tuple[str | None, str]:
+def _without(lacks: Missing, source: Path, can_do_without: bool) -> tuple[str | None, str]:
     """Return the argument to build a package without what it lacks, and what to say of it."""
     if lacks.is_for_tests:
         package = package_of(source)
@@ -90,9 +91,12 @@ def _without(lacks: Missing, source: Path) -> tuple[str | None, str]:
             '-DBUILD_TESTING=OFF',
             f'{package} is built without its tests, which need {lacks.name!r}: that is not here\n',
         )
-    if not compiles_nothing(source):
-        return None, ''
-    return stand_in(lacks.name, Path('stand_ins').resolve()), ''
+    return stand_in(lacks.name, _stand_ins()) if can_do_without else None, ''
+
+
+def _stand_ins() -> Path:
+    """Return the folder for them: colcon starts CMake in that of the build."""
+    return Path('stand_ins').resolve()
 
 
 def _build(command: list[str], folder: str) -> int:

@@ -7,6 +7,8 @@ Many packages of descriptions, meshes and launch files say ``find_package(urdf R
 nothing of it. They need no C++ to be installed.
 """
 
+from collections.abc import Iterable
+import os
 from pathlib import Path
 import re
 
@@ -19,6 +21,8 @@ _USE = re.compile(
 )
 # These bring commands of CMake, which a stand-in would not have.
 _OF_THE_BUILD = re.compile(r'ament_|rosidl_|catkin$|.*_cmake$|.*_cmake_module$')
+_FIND = re.compile(r'^[^#\n]*\bfind_package\s*\(\s*(\w+)', re.MULTILINE)
+_PLACES = ('share/{0}/cmake', 'lib/cmake/{0}')
 _CONFIG = '# Nothing: the package that asks for it compiles nothing.\n'
 _VERSION = 'set(PACKAGE_VERSION_COMPATIBLE TRUE)\n'
 
@@ -49,3 +53,44 @@ def stand_in(name: str, folder: Path) -> str | None:
     (place / f'{name}Config.cmake').write_text(_CONFIG, encoding='utf-8')
     (place / f'{name}ConfigVersion.cmake').write_text(_VERSION, encoding='utf-8')
     return f'-D{name}_DIR={place}'
+
+
+def known_beforehand(source: Path, folder: Path) -> list[str]:
+    """
+    Return the arguments of CMake for what a package that compiles nothing asks for in vain.
+
+    Each that CMake would have to find out about costs a second. So these are the packages of ROS,
+    which the manifest names, too, that are in no prefix; of another library that is somewhere on
+    the machine nothing would be used either.
+
+    Args:
+        source: the folder of the package.
+        folder: where to write the stand-ins.
+    """
+    try:
+        rules = (source / 'CMakeLists.txt').read_text(encoding='utf-8', errors='replace')
+        manifest = (source / 'package.xml').read_text(encoding='utf-8', errors='replace')
+    except OSError:
+        return []
+    prefixes = [
+        prefix
+        for variable in ('AMENT_PREFIX_PATH', 'CMAKE_PREFIX_PATH')
+        for prefix in os.environ.get(variable, '').split(os.pathsep)
+        if prefix
+    ]
+    lacking = (
+        name
+        for name in dict.fromkeys(_FIND.findall(rules.partition('BUILD_TESTING')[0]))
+        if re.search(rf'>\s*{name}\s*<', manifest) and not _is_in(prefixes, name)
+    )
+    return [argument for name in lacking if (argument := stand_in(name, folder))]
+
+
+def _is_in(prefixes: Iterable[str], name: str) -> bool:
+    """Return whether a prefix has what ``find_package(name)`` looks for."""
+    return any(
+        os.path.exists(os.path.join(prefix, place.format(name), f'{name}{end}.cmake'))
+        for prefix in prefixes
+        for place in _PLACES
+        for end in ('Config', '-config')
+    )

@@ -56,6 +56,9 @@ def test_a_description_of_ament_cmake(tmp_path):
         # As many do, it asks for a library of which it uses nothing.
         rules = rules.replace('# find dependencies', 'find_package(urdf REQUIRED)')
         (package / 'CMakeLists.txt').write_text(rules)
+        manifest = (package / 'package.xml').read_text()
+        manifest = manifest.replace('  <test_depend', '  <depend>urdf</depend>\n  <test_depend', 1)
+        (package / 'package.xml').write_text(manifest)
         shell.book = LINES
         shell.run('cd ~/ros2_ws')
         said = shell.run('colcon build', code=1)

@@ -155,5 +155,17 @@ def test_what_compiles_is_known(tmp_path, rules, expected):
     assert compiles_nothing(tmp_path) == expected
 
 
+def test_what_the_manifest_names_is_known_beforehand(cmake, package, tmp_path):
+    rules = 'find_package(there)\nfind_package (urdf REQUIRED)\n#find_package(no)\n'
+    source = package('files', f'{rules}find_package(ament_x)\nfind_package(Eigen3)\n')
+    names = ('there', 'urdf', 'no', 'ament_x')
+    manifest = ''.join(f'<depend>{name}</depend>' for name in names)
+    (tmp_path / 'files/package.xml').write_text(manifest)
+    (tmp_path / 'prefix/share/there/cmake').mkdir(parents=True)
+    (tmp_path / 'prefix/share/there/cmake/thereConfig.cmake').touch()
+    _, log, _ = cmake(source, AMENT_PREFIX_PATH=str(tmp_path / 'prefix'))
+    assert log == f'started: {source} -Durdf_DIR={tmp_path}/build/stand_ins/urdf\n'
+
+
 def test_what_brings_commands_has_no_stand_in(tmp_path):
     assert [stand_in(name, tmp_path) for name in ('ament_x', 'rosidl_y', 'catkin')] == [None] * 3
