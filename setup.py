@@ -89,6 +89,7 @@ setup(
     # ROS packages are named in package.xml only: their names on PyPI differ (ros-rclpy, ...).
     install_requires=['setuptools'],
     extras_require={'test': ['pytest']},
+    python_requires='==3.12.*',  # Jazzy's; the ROS wheels of PyPI are for no other
     zip_safe=False,
     maintainer='The amr_description authors',
     maintainer_email='maintainers@users.noreply.github.com',
