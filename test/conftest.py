@@ -79,7 +79,7 @@ def pytest_configure(config):
             config.option.workers,
             lambda number: begin_worker(config, number),
             give_back,
-            ordering.groups,
+            lambda items: ordering.groups(items, KEPT['durations']),
         )
         config.pluginmanager.register(plugin)
     KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)

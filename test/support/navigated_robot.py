@@ -66,6 +66,10 @@ class NavigatedRobot(Node):
         self._description.publish(String(data=AMR))
         self.map.publish(grid())
         self.plan.publish(path([(IN_MAP[0], y) for y in np.arange(2.0, 5.0, 0.05)]))
+        self.hear()
+
+    def hear(self):
+        """Hear goals and poses."""
         self._ends = [
             self.create_subscription(PoseStamped, '/goal_pose', self.goals.append, 10),
             self.create_subscription(

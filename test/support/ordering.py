@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 import contextlib
 import hashlib
+import itertools
 import json
 import math
 import os
@@ -26,7 +27,9 @@ OWN_TABLE = ROOT / 'build' / 'tests' / 'durations.json'
 
 
 SHARED_FIXTURES = ('browser',)
-"""Those of a session that cost more than most tests: all files that use one run in one worker."""
+"""Those of a session that cost more than most tests: files that use one run in few workers."""
+MOST_SHARED = 60.0
+"""s of a worker, of files that share such a fixture; a run would wait for what takes longer."""
 
 
 class Item(Protocol):
@@ -55,8 +58,12 @@ def random_place(item: Item, seed: str) -> tuple[bytes, bytes]:
     return chance(item.path.name), within
 
 
-def groups(items: Iterable[Item]) -> list[Path | str]:
-    """Return for each test which ones run in the same process: its file, or what files share."""
+def groups(items: Iterable[Item], durations: Mapping[str, float]) -> list[Path | str]:
+    """
+    Return for each test which ones run in the same process: its file, or what files share.
+
+    Files that share a fixture are as many groups as MOST_SHARED asks for, by how long they take.
+    """
     items = [*items]
     sharing = {
         item.path: fixture
@@ -64,7 +71,17 @@ def groups(items: Iterable[Item]) -> list[Path | str]:
         for fixture in SHARED_FIXTURES
         if fixture in item.fixturenames
     }
-    return [sharing.get(item.path, item.path) for item in items]
+    taken: Counter[str] = Counter()
+    names: dict[Path, str] = {}
+    for path, fixture in sharing.items():
+        duration = duration_of(path, durations)
+        for number in itertools.count(1):
+            name = f'{fixture} {number}'
+            if not taken[name] or taken[name] + duration <= MOST_SHARED:
+                break
+        names[path] = name
+        taken[name] += duration
+    return [names.get(item.path, item.path) for item in items]
 
 
 def read_durations(*tables: Path) -> dict[str, float]:

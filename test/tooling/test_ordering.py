@@ -90,12 +90,16 @@ def test_a_file_whose_tests_build_on_each_other_stays_in_order():
     assert [item.name for item in order] == [item.name for item in items]
 
 
-def test_files_that_share_a_browser_run_in_one_process():
+def test_files_that_share_a_browser_run_in_one_process_unless_they_take_long():
     page, other = (Item(f'system/test_{name}.py', fixturenames=('browser',)) for name in 'po')
     items = [page, FILES[0], Item(page.file, 'without_it'), other, FILES[1], FILES[6]]
-    assert ordering.groups(items) == [
-        'browser', FILES[0].path, 'browser', 'browser', FILES[0].path, FILES[6].path
-    ]  # fmt: skip
+    first, second = 'browser 1', 'browser 2'
+    most = ordering.MOST_SHARED
+    for long, expected in ((0.0, first), (most / 2, first), (most, second)):
+        durations = {page.file: most / 2, other.file: long}
+        assert ordering.groups(items, durations) == [
+            first, FILES[0].path, first, expected, FILES[0].path, FILES[6].path
+        ]  # fmt: skip
 
 
 def test_what_takes_long_runs_only_if_asked_for_and_then_first(monkeypatch):

@@ -15,20 +15,29 @@ PLACES = """
 LONG = '/a_robot/joint_state_broadcaster/a_long_name_of_a_topic:position[0]'
 
 
-def opened(browser, server, plots, **look):
-    page = browser.open(f'{server.url}#plots={plots}', **look)
+@pytest.fixture(scope='module')
+def tab(browser):
+    page = browser.open('about:blank', webgl=False)
+    yield page
+    assert page.errors == []
+    page.close()
+
+
+def opened(page, server, plots, **look):
+    page.look_like(**look)
+    page.go(f'{server.url}#plots={plots}')
     page.wait_until("amr.now.link === 'open' && document.querySelector('.charts > .chart')")
     return page
 
 
 @pytest.mark.parametrize('count', [1, 4, 5, 7])
-def test_every_row_of_charts_is_as_wide_as_the_plots(browser, count):
+def test_every_row_of_charts_is_as_wide_as_the_plots(tab, count):
     plots = ';'.join(f'/odom:pose.pose.position.x@{least}..9' for least in range(count))
     with serving(LongDrive(), rate=20.0) as server:
-        page = opened(browser, server, plots, width=1280, height=900)
+        page = opened(tab, server, plots, width=1280, height=900)
         places = page.evaluate(PLACES)
         width = page.evaluate("document.querySelector('.charts').clientWidth")
-        page.close()
+        page.go('about:blank')
     assert len(places) == count
     rows = {each['top']: [] for each in places}
     for each in places:
@@ -40,9 +49,9 @@ def test_every_row_of_charts_is_as_wide_as_the_plots(browser, count):
     assert page.errors == []
 
 
-def test_a_title_is_not_cut_where_nothing_can_hover(browser):
+def test_a_title_is_not_cut_where_nothing_can_hover(tab):
     with serving(LongDrive(), rate=20.0) as server:
-        page = opened(browser, server, LONG, width=390, height=800, phone=True)
+        page = opened(tab, server, LONG, width=390, height=800, phone=True)
         page.click('.open-panels')
         page.evaluate("document.getElementById('tab-plots').click()")
         page.wait_until("document.querySelector('.chart-title').clientWidth > 0")
@@ -50,5 +59,5 @@ def test_a_title_is_not_cut_where_nothing_can_hover(browser):
           const { scrollWidth, clientWidth, textContent } = document.querySelector('.chart-title');
           return [scrollWidth > clientWidth, textContent];
         })()""")
-        page.close()
+        page.go('about:blank')
     assert cut == [False, '/a_robot/joint_state_broadcaster/a_long_name_of_a_topic position']

@@ -242,7 +242,7 @@ def test_who_looks_away_stops(page, ears, happening):
 
 
 def test_a_closed_tab_stops(browser, viewer, ears):
-    page = browser.open(url_of(viewer))
+    page = browser.open(url_of(viewer), webgl=False)
     is_shown(page)
     page.key_down('KeyW')
     ears.drives()
@@ -292,7 +292,7 @@ def test_a_drag_with_shift_moves_and_one_with_ctrl_pulls_the_robot(page, ears, m
 
 @pytest.mark.usefixtures('released')
 def test_one_drives_and_everybody_may_stop(browser, viewer, page, ears):
-    other = browser.open(url_of(viewer), is_beside=True)
+    other = browser.open(url_of(viewer), webgl=False, is_beside=True)
     is_shown(other)
     page.key_down('KeyW')
     ears.drives()
@@ -359,7 +359,7 @@ def test_stop_holds_against_a_stranger_until_it_is_released(browser, viewer, ear
     stands_still(ears)
     page.close()
     stands_still(ears)
-    page = browser.open(url_of(viewer))
+    page = browser.open(url_of(viewer), webgl=False)
     is_shown(page)
     page.wait_until("document.querySelector('.stop-word').textContent.match('Stands still')")
     page.click('.release')
@@ -476,7 +476,7 @@ def test_the_page_comes_back_when_the_server_does(browser, simulation):
     with ExitStack() as stack:
         first = stack.enter_context(serving())
         url = url_of(first)
-        page = browser.open(url)
+        page = browser.open(url, webgl=False)
         is_shown(page)
         assert first.end(signal.SIGKILL) == -signal.SIGKILL
         page.wait_until("amr.now.link !== 'open'")
@@ -489,22 +489,35 @@ def test_the_page_comes_back_when_the_server_does(browser, simulation):
         assert second.end(signal.SIGINT) == 0
 
 
-def test_without_webgl_one_still_drives(viewer, ears):
+def still_drives(page, ears):
+    is_shown(page)
+    assert page.evaluate('amr.now.scene') is None
+    page.wait_until("document.body.innerText.match('WebGL')")
+    page.key_down('KeyW')
+    ears.drives()
+    page.key_up('KeyW')
+    assert ears.has_stopped() < STOPS_WITHIN
+    assert page.errors == []
+
+
+def test_without_webgl_one_still_drives(browser, viewer, ears):
+    page = browser.open(url_of(viewer), webgl=False)
+    still_drives(page, ears)
+    page.close()
+
+
+@pytest.mark.long
+def test_in_a_browser_without_webgl_one_still_drives(viewer, ears):
     need(chromium.executable(), 'no chromium; apt install chromium')
     with chromium.Chromium('--disable-3d-apis') as browser:
         page = browser.open(url_of(viewer))
-        is_shown(page)
-        assert page.evaluate('amr.now.scene') is None
-        page.wait_until("document.body.innerText.match('WebGL')")
-        page.key_down('KeyW')
-        ears.drives()
-        page.key_up('KeyW')
-        assert ears.has_stopped() < STOPS_WITHIN
+        still_drives(page, ears)
+        page.close()
 
 
 def test_an_empty_graph_says_what_to_start(browser):
     with own_domain(), serving() as program:
-        page = browser.open(url_of(program))
+        page = browser.open(url_of(program), webgl=False)
         page.wait_until("document.body.innerText.match('nothing publishes /robot_description')")
         assert page.evaluate(PRESSABLE)
         page.key_down('Escape')
@@ -521,7 +534,7 @@ def test_an_empty_graph_says_what_to_start(browser):
 def test_sliders_move_joints(browser):
     """The stack ``display`` in a domain of its own, its page included."""
     with own_domain(), Program(BRINGUP, 'display') as stack:
-        page = browser.open(url_of(stack))
+        page = browser.open(url_of(stack), webgl=False)
         is_shown(page)
         page.click('[role=tab]:nth-child(2)')
         page.evaluate(

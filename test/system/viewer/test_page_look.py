@@ -55,7 +55,7 @@ def robots():
 
 @pytest.fixture(scope='module')
 def page(browser, robots):
-    page = browser.open(robots[1], pixels=0.5)
+    page = browser.open(robots[1], pixels=0.5, every_frame=True)  # each one is waited for
     page.wait_until(f'amr.now.time > {scripted_robots.SECONDS - 0.2}')
     page.evaluate(f'{AUDIT};0')
     page.evaluate(
