@@ -55,7 +55,7 @@ from amr_description.viewer.states import StateFrame
 AMR = (ROOT / 'urdf' / 'amr.urdf').read_text()
 RATE = 100.0
 """Calls of ``take_state`` a second."""
-REPEAT = 20
+REPEAT = 5
 """Of so many calls one gets a state, once the script is through."""
 PERIOD = 0.1
 """s of the scene's time between two states."""

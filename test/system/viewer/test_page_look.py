@@ -36,7 +36,16 @@ SIZES = {
 }
 USUAL = ('phone_320', 'phone_landscape', 'zoom_200_of_1440x900', 'half_a_screen')
 """Those that are not only looked at in the long run."""
-DRAWN = 'new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(() => r(true))))'
+DRAWN = """
+    (async () => {
+      const after = (ms) => new Promise((done) => setTimeout(done, ms));
+      const { states } = amr.now;
+      while (amr.now.states === states) await after(5);
+      await after(100);  // ten times a second panels take over what has come: by now they have
+      for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+      return true;
+    })()"""
+"""That what is shown now has a state, and is drawn."""
 FONTS = """
     (() => {
       const pen = new OffscreenCanvas(1, 1).getContext('2d');
