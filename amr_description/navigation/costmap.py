@@ -39,7 +39,11 @@ class CostmapSettings:
         10.0, 'How fast costs fall with the distance', unit='1/m', minimum=0.0
     )
     lethal_cost_threshold: int = parameter(
-        100, 'A cell of the map that is at least this occupied is lethal', unit='%', minimum=0
+        100,
+        'A cell of the map that is at least this occupied is lethal',
+        unit='%',
+        minimum=0,
+        read_only=True,
     )
     obstacle_max_range: float = parameter(
         2.5, 'Obstacles of the scan are marked as far as this', unit='m', minimum=0.0
@@ -109,6 +113,11 @@ class Costmap:
         """(height, width): obstacles of the scan that the map has not."""
         return self._obstacles & ~self._static
 
+    def configure(self, settings: CostmapSettings) -> None:
+        """Take other settings from now on, but for ``lethal_cost_threshold``."""
+        self.settings = settings
+        self._costs = None
+
     def clear(self) -> None:
         """Forget what scans have seen."""
         self._change(np.zeros_like(self._obstacles))
@@ -125,6 +134,14 @@ class Costmap:
         if not self.grid.holds(row, column):
             return NO_INFORMATION
         return int(self.costs[row, column])
+
+    def costs_at(self, points: Points) -> Costs:
+        """Return the costs (n,) of points (n, 2) of the map frame; NO_INFORMATION outside."""
+        cells = self.cells_of(points)
+        is_inside = ((cells >= 0) & (cells < self._static.shape)).all(axis=1)
+        found = np.full(len(cells), NO_INFORMATION, dtype=np.uint8)
+        found[is_inside] = self.costs[tuple(cells[is_inside].T)]
+        return found
 
     def is_blocked(self, points: Points) -> bool:
         """Return whether one of the points (n, 2) is on an obstacle, or outside of the map."""

@@ -146,6 +146,11 @@ class Drive:
         """How many goals have not been reached."""
         return len(self.goals) - self._index
 
+    def configure(self, settings: DriveSettings) -> None:
+        """Take other parameters from now on."""
+        self.settings = settings
+        self._follower.configure(settings.pursuit, settings.goal_checker.xy_goal_tolerance)
+
     def remaining(self, pose: Pose) -> float:
         """Return the length of the path from here to the last goal, m."""
         if not self.path:
@@ -252,10 +257,8 @@ class Drive:
 
     def _is_path_blocked(self, pose: Pose, costmap: Costmap) -> bool:
         """Return whether the robot would touch something on the rest of its path."""
-        rows, columns = costmap.cells_of(self._follower.rest(pose)).T
-        return bool((costmap.costs[rows, columns] >= INSCRIBED).any()) and (
-            costmap.cost_at(pose.x, pose.y) < INSCRIBED
-        )
+        costs = costmap.costs_at(self._follower.rest(pose))
+        return bool((costs >= INSCRIBED).any()) and costmap.cost_at(pose.x, pose.y) < INSCRIBED
 
     def _check_progress(self, now: float, pose: Pose) -> None:
         """Raise NavigationError if the robot has not come far enough in its time."""

@@ -98,11 +98,12 @@ class ScanTracker:
 
         Args:
             pose: In the frame of the map.
-            covariance: (3, 3), of x, y and yaw; variances of 0 are taken as amcl's.
+            covariance: (3, 3), of x, y and yaw; of one that is singular or none, only the
+                variances are taken, and amcl's for those that are not above 0.
             odometry: Where odometry says that the robot was then.
         """
         variances = np.diag(covariance)
-        if not variances.all():
+        if (np.linalg.eigvalsh(covariance) <= 0.0).any():
             covariance = np.diag(np.where(variances > 0.0, variances, INITIAL_VARIANCES))
         self.estimate = Estimate(pose, covariance, odometry)
         self.match_next()

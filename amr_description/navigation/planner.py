@@ -187,7 +187,7 @@ def _smoothed(costmap: Costmap, points: Points, settings: PlannerSettings) -> Po
     What would come to lie nearer to an obstacle than the robot can be ends the smoothing.
     """
     way = points.copy()
-    allowed = max(INSCRIBED - 1, int(_costs_of(costmap, points).max()))
+    allowed = max(INSCRIBED - 1, int(costmap.costs_at(points).max()))
     for _ in range(settings.max_its):
         inner = way[1:-1]
         change = settings.w_data * (points[1:-1] - inner) + settings.w_smooth * (
@@ -195,17 +195,12 @@ def _smoothed(costmap: Costmap, points: Points, settings: PlannerSettings) -> Po
         )
         moved = way.copy()
         moved[1:-1] += change
-        if int(_costs_of(costmap, moved).max()) > allowed:
+        if int(costmap.costs_at(moved).max()) > allowed:
             break
         way = moved
         if float(np.abs(change).sum(axis=1).max(initial=0.0)) < settings.tolerance:
             break
     return way
-
-
-def _costs_of(costmap: Costmap, points: Points) -> NDArray[np.uint8]:
-    rows, columns = costmap.cells_of(points).T
-    return costmap.costs[rows, columns]
 
 
 def _turned(points: Points, goal: Pose) -> list[Pose]:

@@ -91,7 +91,7 @@ class RegulatedPurePursuit:
         self, settings: PursuitSettings, outline: Points, goal_tolerance: float, period: float
     ) -> None:
         """
-        Take what does not change.
+        Begin without a path.
 
         Args:
             settings: the parameters.
@@ -106,6 +106,11 @@ class RegulatedPurePursuit:
         self._path: list[Pose] = []
         self._points = np.zeros((0, 2))
         self._nearest = 0
+
+    def configure(self, settings: PursuitSettings, goal_tolerance: float) -> None:
+        """Take other parameters from now on."""
+        self.settings = settings
+        self._goal_tolerance = goal_tolerance
 
     @property
     def path(self) -> list[Pose]:

@@ -38,6 +38,8 @@ _VAGUE = (0.3, 0.3, 0.2)
 _SEARCH_STEP = (0.12, 0.12, math.radians(5.0))
 _SEARCH_REACH = 2.0
 """Standard deviations, to both sides."""
+_FARTHEST = (2.0, 2.0, math.pi / 2.0)
+"""m, m, rad: no search goes farther, however vague the prediction of a lost robot has become."""
 _SEARCH_RAYS = 60
 _SEARCH_WIDTH = 0.2
 """m: how far from a face the end of a ray may be in the search."""
@@ -116,8 +118,7 @@ class ScanMatcher:
 
     def _search(self, points: Array, start: Array, covariance: Array) -> list[Array]:
         """Return the poses around ``start`` at which most rays end at a face."""
-        reach = _SEARCH_REACH * np.sqrt(np.diag(covariance))
-        reach[2] = min(reach[2], math.pi)
+        reach = np.minimum(_SEARCH_REACH * np.sqrt(np.diag(covariance)), _FARTHEST)
         axes = [
             np.arange(-math.ceil(most / step), math.ceil(most / step) + 1) * step
             for most, step in zip(reach, _SEARCH_STEP, strict=True)

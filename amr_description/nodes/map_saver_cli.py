@@ -202,7 +202,7 @@ def save(node: Node, request: Request) -> None:
     try:
         grid = grid_of(found[-1])
     except ValueError as error:
-        raise MapError(f"the map on '{topic}' has not as many cells as it says") from error
+        raise MapError(f"the map on '{topic}' cannot be saved: it is of {error}") from error
     image, metadata = save_map(grid, name, chosen)
     logger.info(f'Map saved successfully: {image}, {metadata}: {grid.width} x {grid.height} cells')
 

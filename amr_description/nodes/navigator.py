@@ -90,7 +90,7 @@ from amr_description.navigation.ros.surroundings import (
 )
 from amr_description.parameters import parameter
 from amr_description.ros.node_help import print_help
-from amr_description.ros.parameters import declare
+from amr_description.ros.parameters import add_validation_callback, declare, values
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
 
@@ -98,6 +98,8 @@ _PURPOSE = 'Drive to goals around what map and scan show: /navigate_to_pose, /go
 _PATIENCE = 5.0
 """s without a usable pose or scan before a goal is given up."""
 _FEEDBACK_PERIOD = 0.1
+_LONGEST = float(2**31 - 1)
+"""s that a duration of a message has room for."""
 _COSTMAP_PERIOD = 1.0
 _CIRCLE = 16
 """Corners of the footprint of a robot that is given by its radius, as in nav2_costmap_2d."""
@@ -142,8 +144,17 @@ class Navigator(Node):
         self.create_subscription(PoseStamped, 'goal_pose', self._hear_goal, 10)
         self.create_timer(1.0 / self._settings.controller_frequency, self._step)
         self.create_timer(_COSTMAP_PERIOD, self._publish_costmap)
+        add_validation_callback(self, NavigatorParameters)
+        self.add_post_set_parameters_callback(lambda _changed: self._configure())
         topic = self.resolve_topic_name('map')
         self.get_logger().info(f'Drives to goals of navigate_to_pose, on the map of {topic}')
+
+    def _configure(self) -> None:
+        """Take parameters that have been set, for the goal that is driven to, too."""
+        self._settings = values(self, NavigatorParameters)
+        self._surroundings.configure(self._settings)
+        if self._drive is not None:
+            self._drive.configure(self._settings)
 
     def destroy_node(self) -> None:
         """Stop the robot, and end the goal."""
@@ -327,7 +338,7 @@ class Navigator(Node):
             'current_pose': current,
             'navigation_time': Duration(seconds=now - began).to_msg(),
             'estimated_time_remaining': Duration(
-                seconds=left / max(self._surroundings.speed[0], 0.1)
+                seconds=min(left / max(self._surroundings.speed[0], 0.1), _LONGEST)
             ).to_msg(),
             'number_of_recoveries': drive.recoveries,
             'distance_remaining': left,

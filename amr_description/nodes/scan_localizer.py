@@ -187,15 +187,15 @@ class ScanLocalizer(Node):
                 f"the map is in the frame '{message.header.frame_id}', and global_frame_id is "
                 f"'{frame}': it is taken to be in '{frame}'"
             )
-        if not (info.width and info.height and info.resolution > 0.0):
-            self.get_logger().warning(
-                f'Ignoring a map of {info.width} x {info.height} cells of {info.resolution:g} m'
-            )
+        try:
+            grid = grid_of(message)
+        except ValueError as error:
+            self.get_logger().warning(f'Ignoring a map of {error}')
             return
         last = self._tracker.estimate if self._tracker else None
         given = self._settings
         matcher = ScanMatcher(
-            grid_of(message),
+            grid,
             sigma=given.sigma_hit,
             max_distance=given.laser_likelihood_max_dist,
         )

@@ -23,6 +23,8 @@ from amr_description.model.robot import Robot
 _QUOTED = re.compile(r'"[^"]*"')
 _MOST_KINDS = 6
 _SHORT = 30
+_FARTHEST = 1e8
+"""m; numerics of physics are lost beyond."""
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
 
 
@@ -70,13 +72,14 @@ def free_name(name: str, taken: Collection[str]) -> str:
 
 
 def checked_pose(pose: Transform) -> Transform:
-    """Return the pose with a unit quaternion. Raises SpawnError: it is not finite, or 0."""
+    """Return the pose with a unit quaternion. Raises SpawnError: not finite, huge, or 0."""
     values = (*pose.translation, *pose.rotation)
     length = math.hypot(*pose.rotation)
-    if not all(map(math.isfinite, values)) or length < 1e-6:
+    if not all(abs(each) <= _FARTHEST for each in values) or length < 1e-6:
         raise SpawnError(
             f'the initial pose is position {pose.translation}, orientation (x, y, z, w) '
-            f'{pose.rotation}; finite numbers and a quaternion of length 1 are needed',
+            f'{pose.rotation}; finite numbers, up to {_FARTHEST:g}, and a quaternion of length 1 '
+            'are needed',
             SpawnCode.INVALID_POSE,
         )
     x, y, z, w = (part / length for part in pose.rotation)

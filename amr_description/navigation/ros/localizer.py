@@ -23,7 +23,7 @@ from rclpy.node import Node
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import quaternion_from_yaw, Transform, yaw_of
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.messages import pose_message
+from amr_description.navigation.ros.messages import is_place, pose_message
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
 from amr_description.tf2_ros.broadcaster import TransformBroadcaster
@@ -125,6 +125,11 @@ class LocalizerTopics:
         elif not _is_finite(message):
             self._logger.warning(
                 'Ignoring initial pose: its position or orientation is not a finite number'
+            )
+        elif not is_place(message.pose.pose):
+            place = message.pose.pose.position
+            self._logger.warning(
+                f'Ignoring initial pose: it is at ({place.x:g}, {place.y:g}), which is no place'
             )
         else:
             self._on_initial_pose(message)

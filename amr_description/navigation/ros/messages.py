@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grids and poses ↔ ``nav_msgs`` and ``geometry_msgs``."""
 
+import math
+
 from geometry_msgs.msg import Pose as PoseMessage, Quaternion
 from nav_msgs.msg import OccupancyGrid as OccupancyGridMessage
 import numpy as np
@@ -9,6 +11,12 @@ import numpy as np
 from amr_description.model.frames import quaternion_from_yaw, yaw_of
 from amr_description.navigation.grid import OccupancyGrid
 from amr_description.navigation.pose import Pose
+
+_FINEST = 1e-3
+"""m; cells that are smaller are a mistake, and would take all memory along a ray."""
+
+_FARTHEST = 1e9
+"""m; what is farther away is a mistake, and too far for numbers of messages and simulators."""
 
 
 def pose_message(pose: Pose) -> PoseMessage:
@@ -18,6 +26,12 @@ def pose_message(pose: Pose) -> PoseMessage:
     x, y, z, w = quaternion_from_yaw(pose.yaw)
     message.orientation = Quaternion(x=x, y=y, z=z, w=w)
     return message
+
+
+def is_place(message: PoseMessage) -> bool:
+    """Return whether a pose is somewhere on a map: neither NaN nor beyond all maps."""
+    place = message.position
+    return all(abs(each) < _FARTHEST for each in (place.x, place.y, place.z))
 
 
 def pose_of(message: PoseMessage) -> Pose:
@@ -43,8 +57,16 @@ def grid_of(message: OccupancyGridMessage) -> OccupancyGrid:
     Return the grid of a message.
 
     Raises:
-        ValueError: the message has not as many cells as it says.
+        ValueError: it is no map; the text says why, as ``3 x 2 cells of 0 m``.
     """
-    shape = (message.info.height, message.info.width)
-    cells = np.array(message.data, dtype=np.int8).reshape(shape)
-    return OccupancyGrid(cells, message.info.resolution, pose_of(message.info.origin))
+    info = message.info
+    origin = pose_of(info.origin)
+    what = f'{info.width} x {info.height} cells of {info.resolution:g} m'
+    if not (info.width and info.height and _FINEST <= info.resolution < math.inf):
+        raise ValueError(what)
+    if not all(map(math.isfinite, origin)):
+        raise ValueError(f'{what} that begin at {tuple(origin)}')
+    if len(message.data) != info.width * info.height:
+        raise ValueError(f'{what}, of which {len(message.data)} have come')
+    cells = np.array(message.data, dtype=np.int8).reshape(info.height, info.width)
+    return OccupancyGrid(cells, info.resolution, origin)

@@ -16,7 +16,7 @@ from sensor_msgs.msg import LaserScan
 from amr_description.errors import NavigationError, TransformException
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.messages import grid_of, pose_of
+from amr_description.navigation.ros.messages import grid_of, is_place, pose_of
 from amr_description.parameters import group, parameter
 from amr_description.ros.qos import LATCHED
 from amr_description.tf2_ros.buffer import Buffer
@@ -70,6 +70,12 @@ class Surroundings:
             LaserScan, settings.scan_topic, self._hear_scan, qos_profile_sensor_data
         )
 
+    def configure(self, settings: SurroundingsSettings) -> None:
+        """Take other parameters from now on."""
+        self._settings = settings
+        if self.costmap is not None:
+            self.costmap.configure(settings.costmap)
+
     @property
     def now(self) -> float:
         """Time of the node, s."""
@@ -111,7 +117,7 @@ class Surroundings:
         """Return a goal in the global frame. Raises NavigationError: it cannot be one."""
         frame = message.header.frame_id
         position, turn = message.pose.position, message.pose.orientation
-        if not all(math.isfinite(each) for each in (position.x, position.y, position.z)):
+        if not is_place(message.pose):
             raise NavigationError(
                 UNKNOWN_ERROR, f'the goal is at ({position.x}, {position.y}): no place'
             )
@@ -146,6 +152,10 @@ class Surroundings:
     def _hear_map(self, message: OccupancyGrid) -> None:
         try:
             grid = grid_of(message)
+        except ValueError as error:
+            self._node.get_logger().error(f'the map cannot be used: it is of {error}')
+            return
+        try:
             self.costmap = Costmap(grid, self._inscribed_radius, self._settings.costmap)
         except ValueError as error:
             self._node.get_logger().error(f'the map cannot be used: {error}')

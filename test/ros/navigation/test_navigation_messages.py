@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grids and poses, as messages and back."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -26,8 +28,26 @@ def test_a_grid_comes_back():
     assert grid.origin == pytest.approx((1.0, 2.0, 0.5))
 
 
-def test_a_grid_of_too_few_cells_is_an_error():
+@pytest.mark.parametrize(
+    ('changes', 'text'),
+    [
+        ({'width': 3}, '3 x 2 cells of 0.1 m, of which 4 have come'),
+        ({'width': 0}, '0 x 2 cells of 0.1 m'),
+        ({'resolution': 0.0}, '2 x 2 cells of 0 m'),
+        ({'resolution': -0.1}, '2 x 2 cells of -0.1 m'),
+        ({'resolution': math.nan}, '2 x 2 cells of nan m'),
+        ({'resolution': math.inf}, '2 x 2 cells of inf m'),
+        ({'resolution': 1e-9}, '2 x 2 cells of 1e-09 m'),
+        (
+            {'origin': pose_message(Pose(math.nan, 0.0, 0.0))},
+            '2 x 2 cells of 0.1 m that begin at (nan, 0.0, 0.0)',
+        ),
+    ],
+)
+def test_what_is_no_map_is_an_error(changes, text):
     message = grid_message(OccupancyGrid(np.zeros((2, 2), np.int8), 0.1, Pose(0.0, 0.0, 0.0)))
-    message.data.pop()
-    with pytest.raises(ValueError):
+    for name, value in changes.items():
+        setattr(message.info, name, value)
+    with pytest.raises(ValueError) as found:
         grid_of(message)
+    assert str(found.value) == text

@@ -191,7 +191,15 @@ def test_what_is_missing_is_said(monkeypatch, sends, said):
         host.wait(is_said)
 
 
-def test_a_map_without_cells_is_ignored():
+def test_what_is_no_map_is_ignored():
     with hosted(ScanLocalizer, hears_truth=False) as host:
-        Room(host, has_map=False).maps.publish(OccupancyGrid())
+        robot = Room(host, has_map=False)
+        robot.maps.publish(OccupancyGrid())
         host.warning('Ignoring a map of 0 x 0 cells of 0 m')
+        torn = grid_message(room())
+        torn.data.pop()
+        robot.maps.publish(torn)
+        host.warning(' have come')
+        robot.maps.publish(grid_message(room()))
+        host.send_initial_pose(BEGIN)
+        robot.localized(1000 * MS, BEGIN)

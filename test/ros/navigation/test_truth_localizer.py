@@ -250,6 +250,7 @@ def test_an_initial_pose_may_shift_the_map_instead():
             '"map"',
         ),
         (Pose(float('nan'), 0.0, 0.0), 'map', 'is not a finite number'),
+        (Pose(1e300, 0.0, 0.0), 'map', 'it is at (1e+300, 0), which is no place'),
         (Pose(1.0, 0.0, 0.0), 'map', 'nothing is known of the robot yet'),
     ],
 )

@@ -18,9 +18,11 @@ from nav2_msgs.action import (
 )
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 import pytest
+from rcl_interfaces.srv import SetParameters
 import rclpy
 from rclpy.action import ActionClient
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from ros_gz_interfaces.msg import Contacts
 from support.paths import ROOT
 from support.ros_processes import PATIENCE, running
@@ -213,6 +215,27 @@ def test_topics_are_those_of_nav2(operator):
     assert len(operator.heard['local_costmap/published_footprint'].polygon.points) == 4
 
 
+def test_parameters_may_be_set_while_it_drives(operator):
+    def set_speed(speed):
+        parameter = Parameter('FollowPath.desired_linear_vel', value=speed)
+        request = SetParameters.Request(parameters=[parameter.to_parameter_msg()])
+        client = operator.create_client(SetParameters, '/navigator/set_parameters')
+        operator.until(client.service_is_ready)
+        done = client.call_async(request)
+        operator.until(done.done)
+        operator.destroy_client(client)
+        return done.result().results[0]
+
+    handle = operator.send(NavigateToPose, pose=stamped(far_from(operator)))
+    operator.until(operator.moves)
+    assert set_speed(0.2).successful
+    operator.until(lambda: 0.0 < operator.heard['cmd_vel'].twist.linear.x <= 0.2)
+    assert 'desired_linear_vel' in set_speed(-1.0).reason
+    assert set_speed(0.5).successful
+    handle.cancel_goal_async()
+    operator.end(handle)
+
+
 def test_a_canceled_goal_stops_the_robot(operator):
     handle = operator.send(NavigateToPose, pose=stamped(far_from(operator)))
     operator.until(operator.moves)
@@ -278,6 +301,8 @@ BAD = {
     'unknown frame': (stamped(Pose(1.0, 0.0, 0.0), 'moon'), 202, '"moon" passed to'),
     'no frame': (stamped(Pose(1.0, 0.0, 0.0), ''), 202, 'has no frame_id'),
     'outside': (stamped(Pose(50.0, 0.0, 0.0)), 204, 'is outside of the map, which reaches from'),
+    'far': (stamped(Pose(9e8, 0.0, 0.0)), 204, 'is outside of the map'),
+    'huge': (stamped(Pose(1e300, 0.0, 0.0)), 200, 'no place'),
     'in a shelf': (stamped(Pose(0.0, 4.58, 0.0)), 206, 'choose a free one'),
 }
 BAD['NaN'] = (stamped(Pose(1.0, 0.0, 0.0)), 200, 'no unit quaternion')

@@ -99,6 +99,12 @@ def test_what_is_outside_is_blocked_and_unknown():
     assert not found.is_blocked(np.array([[0.0, 0.0]]))
 
 
+def test_costs_of_points_outside_are_unknown():
+    points = np.array([[0.0, 0.0], [5.0, 0.0], [0.0, -5.0]])
+    found = costmap(occupied=[(20, 20)]).costs_at(points)
+    assert found.tolist() == [LETHAL, NO_INFORMATION, NO_INFORMATION]
+
+
 def test_a_turned_map_is_refused():
     grid = OccupancyGrid(np.zeros((4, 4), dtype=np.int8), 0.05, Pose(0.0, 0.0, 0.1))
     with pytest.raises(ValueError, match=r'turned by 0\.1 rad'):

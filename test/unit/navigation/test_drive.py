@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Goals from the first step to the end, with a robot that does what it is told, or does not."""
 
+from dataclasses import replace
 import math
 
 import numpy as np
@@ -19,7 +20,7 @@ from amr_description.navigation.drive import (
 )
 from amr_description.navigation.footprint import outline, placed
 from amr_description.navigation.grid import OccupancyGrid, OCCUPIED
-from amr_description.navigation.planner import GOAL_OCCUPIED, NO_VALID_PATH
+from amr_description.navigation.planner import GOAL_OCCUPIED, GOAL_OUTSIDE_MAP, NO_VALID_PATH
 from amr_description.navigation.pose import Pose, wrapped
 
 START = Pose(1.0, 1.0, 0.0)
@@ -144,6 +145,26 @@ def test_what_a_scan_sees_is_driven_around():
     assert costmap.seen.any()
     assert drive.status is Status.SUCCEEDED
     assert robot.pose.distance(goal) <= 0.05
+
+
+def test_parameters_may_change_on_the_way():
+    drive, robot, costmap = drive_to(Pose(4.0, 1.0, 0.0)), Robot(), room()
+    robot.follow(drive, costmap, until=2.0)
+    assert robot.commands[-1].linear == pytest.approx(0.5)
+    drive.configure(replace(SETTINGS, pursuit=replace(SETTINGS.pursuit, desired_linear_vel=0.3)))
+    robot.follow(drive, costmap)
+    assert max(each.linear for each in robot.commands[41:]) == pytest.approx(0.3)
+    costmap.configure(replace(costmap.settings, inflation_radius=0.0))
+    assert not costmap.costs.any()
+
+
+def test_a_map_that_becomes_smaller_on_the_way_ends_the_goal():
+    drive, robot = drive_to(Pose(4.0, 4.0, 0.0)), Robot()
+    robot.follow(drive, room(), until=1.0)
+    cells = np.zeros((40, 40), dtype=np.int8)
+    small = Costmap(OccupancyGrid(cells, 0.05, Pose(0.0, 0.0, 0.0)), 0.17, CostmapSettings())
+    drive.step(robot.now, robot.pose, robot.speed, small)
+    assert drive.error.error_code == GOAL_OUTSIDE_MAP
 
 
 def test_a_goal_in_an_obstacle_fails_at_once():

@@ -142,6 +142,22 @@ def test_a_pose_without_a_covariance_is_as_vague_as_amcls():
     assert match.pose == pytest.approx(POSES[0], abs=0.015)
 
 
+@pytest.mark.parametrize(
+    'covariance',
+    [
+        np.diag([-1.0, 0.25, 0.07]),  # no variance
+        np.array([[0.25, 9.0, 0.0], [9.0, 0.25, 0.0], [0.0, 0.0, 0.07]]),  # more than correlated
+        np.diag([1e300, 1e300, 1e300]),
+        np.diag([1e4, 1e4, 1e4]),  # as of a robot that has been lost for hours
+    ],
+)
+def test_whatever_a_covariance_says_the_search_ends(covariance):
+    follower = tracker()
+    follower.place(Pose(0.6, -0.4, 0.2), covariance, Pose(0.0, 0.0, 0.0))
+    match = follower.update(points_of(scan(POSES[0])), Pose(0.0, 0.0, 0.0))
+    assert match.pose == pytest.approx(POSES[0], abs=0.015)
+
+
 def test_a_scan_of_another_place_leaves_the_pose_to_odometry():
     follower = tracker()
     follower.place(POSES[0], SURE, Pose(0.0, 0.0, 0.0))

@@ -136,6 +136,12 @@ def test_quaternion_of_any_length_is_taken_a_direction():
     assert pose == Transform((1.0, 2.0, 3.0))
 
 
+@pytest.mark.parametrize('x', [float('nan'), float('inf'), 1e300])
+def test_a_pose_that_physics_cannot_hold_is_refused(x):
+    with pytest.raises(SpawnError, match='finite numbers, up to 1e'):
+        checked_pose(Transform((x, 0.0, 0.0)))
+
+
 def test_tutorial_robot_drives_backwards_as_its_text_says(world):
     robot = world.spawn('tutorial', TUTORIAL, Transform((0.0, 3.0, 0.0)))
     wheels = [joint.name for joint in robot.description.joints if joint.has_position]
