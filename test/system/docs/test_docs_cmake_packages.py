@@ -72,7 +72,7 @@ def test_a_description_of_ament_cmake(tmp_path):
         assert "'my_robot_description' is not found" in shell.run('check_urdf')
         shell.book = LINES
         shell.run('source install/setup.bash')
-        assert 'robot name is: my_robot' in shell.run('check_urdf')
+        assert 'robot name is: my_robot' in shell.run('check_urdf src/')
         shell.book = OUTSIDE
         assert 'warning' not in shell.run('check_urdf')
         shell.book = 'ros2 pkg prefix --share my_robot_description'
