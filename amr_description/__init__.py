@@ -18,6 +18,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``ros/``                rclpy as every node uses it
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``
 ``bringup/``            the launcher: stacks, conditions, processes
+``launch_api/``         launch files of ROS: ``import launch``, ``import launch_ros``
 ``cli/``                the ``ros2`` command and ``check_urdf``, one file a verb
 ``workspace/``          what ``colcon build`` of packages of users needs
 ``testing/``            a simulation in lock-step, for tests of users
@@ -28,6 +29,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``launch_log.py``       what a bring-up has warned of, for what it starts
 ``launch_variables.py`` ``$(var …)`` of launch files in parameters
 ``parameter_files.py``  ROS parameter files: read, searched for a node's sections, written
+``stand_ins.py``        packages of ROS that are not installed, and what is in their place
 ``registry.py``         names of plugins → ``module:attribute``, imported when used
 ``ament_index.py``      packages, executables, ``package://`` and ``file://``
 ``clock.py``            nanoseconds; messages of before a jump back in time

@@ -62,6 +62,7 @@ from amr_description.bringup.conditions import (
     after,
     all_of,
     any_of,
+    exited,
     exited_cleanly,
     failed,
     logged,
@@ -70,14 +71,16 @@ from amr_description.bringup.conditions import (
 )
 from amr_description.bringup.description import Group, Node, ready, Respawn, Stack
 from amr_description.bringup.graph_conditions import path_exists, ros_node, service, topic
-from amr_description.bringup.handlers import Exited, Shutdown, Stopping
+from amr_description.bringup.handlers import EventHandler, Exited, Log, Shutdown, Stopping
 from amr_description.bringup.input_files import notes_on
 from amr_description.bringup.stack_files import include
 from amr_description.bringup.urdf_text import robot_description
 
 __all__ = [
+    'EventHandler',
     'Exited',
     'Group',
+    'Log',
     'Node',
     'Respawn',
     'Shutdown',
@@ -86,6 +89,7 @@ __all__ = [
     'after',
     'all_of',
     'any_of',
+    'exited',
     'exited_cleanly',
     'failed',
     'include',

@@ -16,7 +16,7 @@ import shlex
 import shutil
 
 from amr_description.ament_index import executable_of, is_own, OWN_PACKAGE, path_of
-from amr_description.bringup.description import Node, ParameterValue, Stack
+from amr_description.bringup.description import Node, ParameterText, ParameterValue, Stack
 from amr_description.bringup.environment import interpreter_of, is_of_this_python
 from amr_description.bringup.placement import Placement, ResolvedNode
 from amr_description.errors import BringupError, UsageError
@@ -89,15 +89,22 @@ class ProcessSpec:
         return self.resolved.node
 
     @property
-    def environment(self) -> Mapping[str, str]:
-        """The variables that the stack sets for the node."""
+    def environment(self) -> Mapping[str, str | None]:
+        """The variables that the stack sets for the node; None: it has none of this name."""
         return self.resolved.environment
+
+    def variables(self, base: Mapping[str, str]) -> dict[str, str]:
+        """Return all variables of the process. ``base``: those of the bring-up."""
+        every = {**base, **self.environment}
+        return {name: value for name, value in every.items() if value is not None}
 
     @property
     def command(self) -> list[str]:
         """The command line, as launch builds it."""
         node = self.node
         prefix = shlex.split(node.prefix or self.launch_prefix)
+        if node.command is not None:
+            return [*prefix, *map(str, node.command)]
         words = [*prefix, str(self.executable), *map(str, node.arguments)]
         words.append('--ros-args')
         if node.name:
@@ -114,6 +121,7 @@ class ProcessSpec:
     def unblocks_sigint(self) -> bool:
         """Whether it is an executable of this package: it may be started with SIGINT blocked."""
         is_ours = self.node.package == OWN_PACKAGE and is_own(self.executable)
+        is_ours = is_ours and self.node.command is None and self.node.folder is None
         return is_ours and not (self.node.prefix or self.launch_prefix)
 
     @property
@@ -206,13 +214,29 @@ def _process_spec(
     name = f'{node.executable}-{number}'
     files: list[tuple[Path, str | None]] = []
     for index, entry in enumerate(resolved.parameters, start=1):
-        if isinstance(entry, Mapping):
-            path = folder / f'{name}-parameters-{index}.yaml'
-            files.append((path, _parameters_text(name, resolved, entry)))
-        else:
+        if isinstance(entry, str | Path):
             files.append((path_of(str(entry)), None))
-    executable = executable_of(node.package, node.executable)
+            continue
+        if isinstance(entry, ParameterText):
+            text = entry.text
+        else:
+            text = _parameters_text(name, resolved, entry)
+        files.append((folder / f'{name}-parameters-{index}.yaml', text))
+    executable = (
+        executable_of(node.package, node.executable)
+        if node.command is None
+        else _program(node, resolved.environment)
+    )
     return ProcessSpec(resolved, name, executable, files, prefix.of(node.executable))
+
+
+def _program(node: Node, environment: Mapping[str, str | None]) -> Path:
+    """Return the path of the program of a command. Raises BringupError."""
+    word = str(node.command[0]) if node.command else ''
+    found = shutil.which(word, path=environment.get('PATH'))
+    if found is None:
+        raise BringupError(f"there is no command '{word}' on the PATH")
+    return Path(found)
 
 
 def _parameters_text(

@@ -168,6 +168,11 @@ def exited_cleanly(node: NodeRef) -> Condition:
     return _ExitedCleanly(node)
 
 
+def exited(node: NodeRef) -> Condition:
+    """Hold once the node has ended, whatever its exit code: launch's OnProcessExit."""
+    return _Exited(node)
+
+
 def failed(node: NodeRef) -> Condition:
     """Hold once a node with ``required=False`` has failed; a required one would end the stack."""
     return _Failed(node)
@@ -233,6 +238,17 @@ def may_never_hold(condition: Condition | None) -> bool:
     return any(isinstance(part, OnRequest | _Failed) for part in walk(condition))
 
 
+def is_end_of_node(condition: Condition) -> bool:
+    """Return whether it holds once a node has ended, however."""
+    return isinstance(condition, _Exited)
+
+
+def has_running_timer(condition: Condition | None, state: StackState) -> bool:
+    """Return whether an ``after`` in it counts down now."""
+    timers = (part for part in walk(condition) if isinstance(part, After))
+    return any((due := timer.due(state)) is not None and due > state.time for timer in timers)
+
+
 def waits_for_request(condition: Condition | None) -> bool:
     """Return whether it depends on the request of a handler."""
     return any(isinstance(part, OnRequest) for part in walk(condition))
@@ -255,6 +271,18 @@ class _OfNode(Condition):
         if node.restart_at is not None:
             return f'{name} waits for its next start'
         return f'{name} still runs' if node.started else f'{name} was not started'
+
+
+@dataclass(frozen=True)
+class _Exited(_OfNode):
+    def evaluate(self, state: StackState) -> Verdict:
+        node = state.nodes[self.node]
+        if node.returncode is not None:
+            return Verdict.HOLDS
+        return Verdict.NEVER if node.unreachable else Verdict.NOT_YET
+
+    def describe(self, name_of: NameOf) -> str:
+        return f'{name_of(self.node)} exited'
 
 
 @dataclass(frozen=True)

@@ -12,12 +12,14 @@ import shutil
 import time
 from typing import TextIO
 
-from amr_description.bringup.description import Level
+from amr_description.bringup.handlers import Level
 from amr_description.bringup.run_log import LogFolder, with_tilde
 from amr_description.bringup.terminal import as_foreground
 
 LAUNCH = 'launch'
 """The name under which the orchestrator itself logs."""
+LAUNCH_USER = 'launch.user'
+"""… and that of what a launch file logs by LogInfo."""
 
 # Shown even while a process has the terminal: ``[WARN] [1795273609.66] [name]: text``.
 _ALARM = re.compile(r'\[(WARN|ERROR|FATAL)\] \[')

@@ -8,6 +8,7 @@ A value of the wrong type raises BringupError at once, with the field that it wa
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, InitVar, KW_ONLY, replace
+from os import PathLike
 from pathlib import Path
 from typing import Literal
 
@@ -25,14 +26,27 @@ from amr_description.bringup.conditions import (
     StackState,
     Verdict,
 )
-from amr_description.bringup.handlers import ExitHandler, StopHandler
+from amr_description.bringup.handlers import (
+    EventHandler,
+    ExitHandler,
+    Level,
+    LineHandler,
+    StopHandler,
+)
 from amr_description.errors import BringupError
 
 type Scalar = bool | int | float | str
 type ParameterValue = Scalar | Sequence[Scalar] | Mapping[str, ParameterValue]
-type Parameters = Sequence[Mapping[str, ParameterValue] | str | Path]
-type Level = Literal['INFO', 'WARNING', 'ERROR']
-"""The severity of a message, as launch writes it."""
+
+
+@dataclass(frozen=True)
+class ParameterText:
+    """The text of a parameter file, which is written into the log folder."""
+
+    text: str
+
+
+type Parameters = Sequence[Mapping[str, ParameterValue] | ParameterText | str | Path]
 
 DEFAULT_TIMEOUT = 60.0
 """s"""
@@ -41,7 +55,10 @@ _MEMBERS = validation.list_of('nodes, groups and stacks')
 _COMMON_FIELDS = {
     'namespace': validation.NAMESPACE.or_none(),
     'environment': validation.ENVIRONMENT,
-    'parameters': validation.PARAMETERS,
+    'parameters': validation.list_of(
+        "tables and files, as [{'speed': 1.0}, 'arm.yaml']",
+        lambda entry: isinstance(entry, Mapping | ParameterText | str | PathLike),
+    ),
     'remappings': validation.REMAPPINGS,
     'start_when': CONDITION.or_none(),
 }
@@ -84,11 +101,18 @@ _NODE_FIELDS = {
         lambda value: value in ('continue', 'shutdown') or callable(value),
     ),
     'terminal': validation.BOOLEAN,
+    'command': validation.ARGUMENTS.or_none(),
+    'folder': validation.VALUE.or_none(),
+    'on_output': validation.FUNCTION.or_none(),
 }
 _STACK_FIELDS = {
     'ready_when': CONDITION.or_none(),
     'timeout': validation.NUMBER,
     'on_shutdown': validation.FUNCTION.or_none(),
+    'event_handlers': validation.list_of(
+        'event handlers, as [EventHandler(exited(node), function)]',
+        lambda value: isinstance(value, EventHandler),
+    ),
     'next_steps': validation.TEXT,
     'notes': validation.list_of("pairs, as [('INFO', 'a text')]", validation.is_pair),
 }
@@ -115,8 +139,8 @@ class Node(NodeRef):
     """Pairs (from, to), ``-r from:=to``."""
     arguments: Sequence[object] = ()
     """The words before ``--ros-args``."""
-    environment: Mapping[str, str] = field(default_factory=dict)
-    """Environment variables in addition to those of the bring-up and of its groups."""
+    environment: Mapping[str, str | None] = field(default_factory=dict)
+    """Environment variables beside those of the bring-up and of its groups; None: without it."""
     prefix: str = ''
     """Words before the command line: ``gdb -ex run --args``, ``valgrind``, ``nice -n 10``."""
     start_when: Condition | None = None
@@ -130,6 +154,12 @@ class Node(NodeRef):
     """What happens when it ends with exit code 0; or a handler that is called at its end."""
     terminal: bool = False
     """Whether it reads keys and needs the terminal, see terminal.py; at most one in a stack."""
+    command: Sequence[str] | None = None
+    """The words of a program that is no executable of a package, as of launch's ExecuteProcess."""
+    folder: str | Path | None = None
+    """Where it is started; None: where the bring-up is."""
+    on_output: LineHandler | None = None
+    """Called with each line of its output; as ``on_exit``, but it starts nothing."""
     patience: InitVar[float | None] = None
     """Alias of ``timeout``."""
 
@@ -160,7 +190,7 @@ class Group(Member):
     _: KW_ONLY
     namespace: str | None = None
     """Prepended to those of its members; relative to its own group's unless it begins with /."""
-    environment: Mapping[str, str] = field(default_factory=dict)
+    environment: Mapping[str, str | None] = field(default_factory=dict)
     parameters: Parameters = ()
     remappings: Sequence[tuple[str, str]] = ()
     start_when: Condition | None = None
@@ -184,6 +214,7 @@ class Stack(Member):
     """s that each wait in it may take before the stack fails; ``math.inf``: no timeout."""
     on_shutdown: StopHandler | None = None
     """Called once, before the first process is signalled."""
+    event_handlers: Sequence[EventHandler] = ()
     next_steps: str = ''
     """Logged after ``ready in … s:``: what a user would type next."""
     notes: Sequence[tuple[Level, str]] = ()
@@ -208,7 +239,8 @@ class Stack(Member):
             raise BringupError(
                 f'{" and ".join(with_terminal)} want the terminal, which one node can have'
             )
-        for condition in [*_conditions(self.nodes), self.ready_when]:
+        handled = [handler.when for handler in self.event_handlers]
+        for condition in [*_conditions(self.nodes), *handled, self.ready_when]:
             for node in condition.nodes if condition else ():
                 if node not in nodes:
                     raise BringupError(

@@ -21,9 +21,13 @@ return quickly.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any, Literal
 
 from amr_description.bringup import user_errors, validation
-from amr_description.bringup.conditions import Member, NodeRef
+from amr_description.bringup.conditions import CONDITION, Condition, Member, NodeRef, StackState
+
+type Level = Literal['INFO', 'WARNING', 'ERROR']
+"""The severity of a message, as launch writes it."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +47,8 @@ class Stopping:
 
     exit_code: int
     """The exit code of the bring-up, as far as it is known."""
+    reason: str = ''
+    """Why it stops; '': it has ended by itself."""
 
 
 _EXIT_CODE = validation.Validator(
@@ -64,9 +70,34 @@ class Shutdown:
         validation.require('Shutdown(…, exit_code=%s)', self.exit_code, _EXIT_CODE)
 
 
-type Reaction = None | Shutdown | Member | Sequence[Member]
+@dataclass(frozen=True)
+class Log:
+    """Returned by a handler: write a line into the log of the bring-up."""
+
+    text: str
+    level: Level = 'INFO'
+
+
+type Reaction = None | Shutdown | Log | Member | Sequence[Log | Shutdown | Member]
 type ExitHandler = Callable[[Exited], Reaction]
-type StopHandler = Callable[[Stopping], None]
+type StopHandler = Callable[[Stopping], Sequence[Log] | None]
+type LineHandler = Callable[[str], Reaction]
+type StateHandler = Callable[[StackState], Reaction]
+
+
+@dataclass(frozen=True, eq=False)
+class EventHandler:
+    """A function that is called once, as soon as a condition holds."""
+
+    when: Condition
+    run: StateHandler
+    text: str = ''
+    """What it does, for ``--print``."""
+
+    def __post_init__(self) -> None:
+        """Raise BringupError for a field of the wrong type."""
+        validation.require('EventHandler(%s, …)', self.when, CONDITION)
+        validation.require('EventHandler(…, %s)', self.run, validation.FUNCTION)
 
 
 @dataclass(frozen=True)
@@ -76,19 +107,30 @@ class HandlerResult:
     members: Sequence[Member] = ()
     """What to start; the condition of each node contains :func:`.on_request`."""
     shutdown: Shutdown | None = None
+    lines: Sequence[Log] = ()
 
 
-def call_exit_handler(handler: ExitHandler, event: Exited) -> HandlerResult:
-    """Call a handler; if it raises, the stack is to stop with exit code 1."""
+def call_handler[T](name: str, handler: Callable[[T], Reaction], event: T) -> HandlerResult:
+    """
+    Call a handler; if it raises, the stack is to stop with exit code 1.
+
+    Args:
+        name: what the handler was given for, for the message.
+        handler: the function.
+        event: its argument.
+    """
     try:
         reaction = handler(event)
     except (Exception, SystemExit) as error:  # the user's code must not end the supervisor
-        return HandlerResult(shutdown=Shutdown(describe_failure('on_exit', error), exit_code=1))
+        return HandlerResult(shutdown=Shutdown(describe_failure(name, error), exit_code=1))
     if reaction is None:
         return HandlerResult()
-    if isinstance(reaction, Shutdown):
-        return HandlerResult(shutdown=reaction)
-    return HandlerResult(tuple(reaction) if isinstance(reaction, list | tuple) else (reaction,))
+    parts: list[Any] = [*reaction] if isinstance(reaction, list | tuple) else [reaction]
+    return HandlerResult(
+        members=tuple(each for each in parts if not isinstance(each, Shutdown | Log)),
+        shutdown=next((each for each in parts if isinstance(each, Shutdown)), None),
+        lines=tuple(each for each in parts if isinstance(each, Log)),
+    )
 
 
 def describe_failure(name: str, error: BaseException) -> str:

@@ -15,7 +15,7 @@ from pathlib import Path
 import re
 
 from amr_description.ament_index import package_prefix, prefixes
-from amr_description.bringup.description import Level
+from amr_description.bringup.handlers import Level
 from amr_description.errors import ResourceError
 from amr_description.model.xacro_markup import is_xacro
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import signal
 import sys
 import threading
+from typing import Protocol
 
 from amr_description import streams
 from amr_description.ament_index import overlay, OWN_PACKAGE
@@ -48,13 +49,28 @@ from amr_description.launch_log import LAUNCH_LOG
 _INDENT = '    '
 
 
-def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
+class StackSource(Protocol):
+    """What a stack is made from in place of a stack's file: a launch file of ROS."""
+
+    def show_arguments(self) -> str:
+        """Return what ``--show-args`` prints."""
+        ...
+
+    def stack(self, given: Mapping[str, str]) -> Stack:
+        """Return the stack with these arguments, as a user typed them."""
+        ...
+
+
+def main(
+    args: list[str] | None = None, *, prog: str = 'bringup', source: StackSource | None = None
+) -> int:
     """
     Run the command.
 
     Args:
         args: its arguments; None: those of the process.
         prog: the name of the command in its messages.
+        source: what the stack is made from; None: what the arguments name.
 
     Returns:
         The exit code: see ``orchestrator.py``; 2: wrong command line.
@@ -65,7 +81,7 @@ def main(args: list[str] | None = None, *, prog: str = 'bringup') -> int:
         if words and words[0] in COMMANDS:
             return COMMANDS[words[0]](words[1:])
         with _exit_on_signals():
-            return _run(_parser().parse_intermixed_args(words))
+            return _run(_parser().parse_intermixed_args(words), source)
     except AmrError as error:
         print(f'{prog}: {error}', file=sys.stderr)
         return error.exit_code
@@ -115,8 +131,11 @@ def listing(stack: Stack, specs: Sequence[ProcessSpec]) -> str:
         return by_node[node].name
 
     lines = list(_tree(stack.nodes, by_node, name_of))
+    placement = Placement(stack)
+    for handler in placement.event_handlers:
+        lines.append(f'handler: when {handler.when.describe(name_of)}: {handler.text}')
     if stack.ready_when:
-        lines.append(f'ready: when {Placement(stack).ready_when.describe(name_of)}')
+        lines.append(f'ready: when {placement.ready_when.describe(name_of)}')
     return '\n'.join(lines)
 
 
@@ -147,14 +166,19 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(options: argparse.Namespace) -> int:
+def _run(options: argparse.Namespace, source: StackSource | None) -> int:
     os.environ |= environment.variables(options, os.environ)
     if options.show_args:
+        if source:
+            return _print(source.show_arguments())
         return _print(show(declared(find_stack(options.stack))))
-    stack = make_stack(options.stack, parse(options.arguments))
+    given = parse(options.arguments)
+    stack = source.stack(given) if source else make_stack(options.stack, given)
     prefix = LaunchPrefix(options.launch_prefix, options.launch_prefix_filter)
     if options.print:
-        return _print(listing(stack, process_specs(stack, Path('LOG_FOLDER'), prefix)))
+        notes = [f'[{level}] {text}' for level, text in stack.notes] if source else []
+        specs = process_specs(stack, Path('LOG_FOLDER'), prefix)
+        return _print('\n'.join([*notes, listing(stack, specs)]))
     return start(stack, name=Path(options.stack).stem, force=options.force, prefix=prefix)
 
 
@@ -242,7 +266,9 @@ def _node_lines(spec: ProcessSpec, name_of: NameOf) -> Iterator[str]:
     yield f'{spec.name}: {", ".join([when, *_options(spec.node)])}'
     yield f'{_INDENT}{spec.command_text}'
     for variable, value in spec.environment.items():
-        yield f'{_INDENT}{variable}={value}'
+        yield f'{_INDENT}{variable}={value}' if value is not None else f'{_INDENT}no {variable}'
+    if spec.node.folder is not None:
+        yield f'{_INDENT}in {spec.node.folder}'
     for path, text in spec.parameter_files:
         if text is not None:
             yield f'{_INDENT}{path}:'

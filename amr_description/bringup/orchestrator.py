@@ -78,6 +78,7 @@ class Orchestrator:
         self._external = ExternalState(watch)
         self._stop_handlers = stack.stop_handlers
         self._stop_requests = 0
+        self._stop_reason = ''
         self._exit_code = 0
         console.on_reader_gone(self._on_reader_gone)
 
@@ -120,6 +121,8 @@ class Orchestrator:
 
     def _on_stop_signal(self, number: signal.Signals) -> None:
         self._reporter.stop_requested(number, again=self._stop_requests > 0)
+        ctrl_c = number == signal.SIGINT
+        self._stop_reason = f'{"ctrl-c" if ctrl_c else "stopped"} ({number.name})'
         self._request_stop()
 
     def _on_reader_gone(self) -> None:
@@ -159,19 +162,24 @@ class Orchestrator:
     async def _run_until_over(self) -> None:
         while not self._scheduler.over:
             self._observe()
+            self._reporter.lines(self._scheduler)
             while not self._scheduler.over and (nodes := self._scheduler.startable()):
                 self._start(nodes[0])
             self._reporter.progress(self._scheduler)
             if not self._scheduler.over:
                 await self._event(self._time_left())
             self._handle_exits()
+        self._reporter.lines(self._scheduler)
         if self._scheduler.shutdown:
+            self._stop_reason = self._scheduler.shutdown.reason
             self._reporter.shutdown(self._scheduler.shutdown)
         for handler in self._stop_handlers:
             try:
-                handler(Stopping(self._result))
+                lines = handler(Stopping(self._result, self._stop_reason))
+                self._scheduler.lines += lines or ()
             except (Exception, SystemExit) as error:  # must not keep processes alive
                 self._reporter.handler_failed(describe_failure('on_shutdown', error))
+        self._reporter.lines(self._scheduler)
 
     def _observe(self) -> None:
         """Give the scheduler the time, the ROS graph and the files."""
@@ -199,8 +207,7 @@ class Orchestrator:
         spec = self._specs[node]
         self._scheduler.on_start(node)
         try:
-            environment = {**self._environment, **spec.environment}
-            environment = child_environment(spec.executable, environment)
+            environment = child_environment(spec.executable, spec.variables(self._environment))
             spec.write_parameter_files()
             child = self._spawn(spec, environment | self._lifeline.variables)
         except OSError as error:
@@ -223,7 +230,8 @@ class Orchestrator:
             if not spec.node.terminal:
                 on_line = functools.partial(self._on_line, spec.node)
                 server = self._fork_server if spec.is_forkable else None
-                return Child(spec.command, environment, reader, on_line, server)
+                folder = spec.node.folder
+                return Child(spec.command, environment, reader, on_line, server, folder)
             reporter.progress(self._scheduler)  # while all of it can still be seen
             reporter.lending_terminal(spec.node)
             try:

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from amr_description.bringup.conditions import all_of, Condition, Member, Scope
-from amr_description.bringup.description import Group, Node, Parameters, Stack
+from amr_description.bringup.description import Group, Node, Parameters, Stack, stacks_of
+from amr_description.bringup.handlers import EventHandler
 
 
 @dataclass(frozen=True)
@@ -16,7 +17,8 @@ class ResolvedNode:
     node: Node
     namespace: str | None
     """Absolute, ``/robot1/arm``; None: neither the node nor a group sets one."""
-    environment: Mapping[str, str]
+    environment: Mapping[str, str | None]
+    """None: without the variable."""
     parameters: Parameters
     remappings: Sequence[tuple[str, str]]
     start_when: Condition | None
@@ -31,7 +33,7 @@ class _Inherited:
 
     timeout: float
     namespace: str | None = None
-    environment: Mapping[str, str] = field(default_factory=dict)
+    environment: Mapping[str, str | None] = field(default_factory=dict)
     parameters: Parameters = ()
     remappings: Sequence[tuple[str, str]] = ()
     conditions: tuple[tuple[Condition, str | None], ...] = ()
@@ -49,6 +51,15 @@ class Placement:
         """In the order of the tree."""
         self.ready_when = stack.readiness.resolved(self._scope(None))
         """With absolute names."""
+        self.event_handlers = list(self._handlers(stack, None))
+        """With absolute names."""
+
+    def _handlers(self, stack: Stack, namespace: str | None) -> Iterator[EventHandler]:
+        scope = self._scope(self._stacks.get(stack, namespace))
+        for handler in stack.event_handlers:
+            yield replace(handler, when=handler.when.resolved(scope))
+        for inner in stacks_of(stack.nodes):
+            yield from self._handlers(inner, namespace)
 
     def _walk(self, member: Member, inherited: _Inherited) -> Iterator[tuple[Node, _Inherited]]:
         if isinstance(member, Node):

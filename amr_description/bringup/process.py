@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import contextlib
 import fcntl
 import os
+from pathlib import Path
 import signal
 import subprocess
 import termios
@@ -98,6 +99,7 @@ class Child(RunningProcess):
         inherit: int,
         on_line: Callable[[str], None],
         fork_server: ForkServer | None = None,
+        folder: str | Path | None = None,
     ) -> None:
         """
         Start the process.
@@ -112,6 +114,7 @@ class Child(RunningProcess):
             inherit: a file descriptor that the child gets under the same number.
             on_line: called with each line of its stdout and stderr, without line end.
             fork_server: starts it, if it can; it has ``inherit`` already.
+            folder: where it is started; None: here.
 
         Raises:
             OSError: the operating system cannot start it.
@@ -126,6 +129,7 @@ class Child(RunningProcess):
                 stderr=writer,
                 pass_fds=(inherit,),
                 start_new_session=True,
+                cwd=folder,
             )
         except OSError:
             os.close(reader)

@@ -23,7 +23,7 @@ from amr_description.bringup.conditions import (
     NodeRef,
     StackState,
 )
-from amr_description.bringup.console import Console, LAUNCH
+from amr_description.bringup.console import Console, LAUNCH, LAUNCH_USER
 from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.graph_watcher import GRAPH_WATCH
 from amr_description.bringup.handlers import Shutdown
@@ -112,8 +112,15 @@ class Reporter:
         text = f'process is started again in {delay:.1f} s ({own.restarts}{of})'
         self._console.log('WARNING', self._name_of(node), text)
 
+    def lines(self, scheduler: Scheduler) -> None:
+        """Show the lines that handlers have returned."""
+        while scheduler.lines:
+            line = scheduler.lines.popleft()
+            self._console.log(line.level, LAUNCH_USER, line.text)
+
     def progress(self, scheduler: Scheduler) -> None:
         """Report that the stack is ready, what it waits for, and what can never start."""
+        self.lines(scheduler)
         self._start_status.follow(scheduler)
         for expired in scheduler.abandoned:
             self._never_starts(expired.node, expired.text(self._name_of))

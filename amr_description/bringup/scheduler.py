@@ -12,7 +12,8 @@ took until the step could start. The seconds of an ``after`` are added. A wait f
 for a request has no timeout.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 import math
 from typing import Any
@@ -20,6 +21,7 @@ from typing import Any
 from amr_description.bringup.conditions import (
     After,
     Condition,
+    has_running_timer,
     Logged,
     NameOf,
     NodeState,
@@ -32,12 +34,21 @@ from amr_description.bringup.conditions import (
     walk,
 )
 from amr_description.bringup.description import Node, nodes_of, Stack
-from amr_description.bringup.handlers import call_exit_handler, Exited, HandlerResult, Shutdown
+from amr_description.bringup.handlers import (
+    call_handler,
+    Exited,
+    HandlerResult,
+    Log,
+    Reaction,
+    Shutdown,
+)
 from amr_description.bringup.placement import Placement
 from amr_description.errors import BringupError
 
 TIMED_OUT = 124
 """Exit code after a timeout, the one of ``timeout(1)``."""
+
+_OVER = (Verdict.HOLDS, Verdict.NEVER)
 
 type Wait = tuple[Node | None, Condition]
 """A node and the condition it waits for; None: the stack itself waits to be ready."""
@@ -141,7 +152,9 @@ class Scheduler:
         placement = Placement(stack)
         self._conditions = {each.node: each.start_when for each in placement.nodes}
         self._ready_when = placement.ready_when
-        all_conditions = [*self._conditions.values(), self._ready_when]
+        self._handlers = placement.event_handlers  # those that were not called yet
+        handled = [handler.when for handler in self._handlers]
+        all_conditions = [*self._conditions.values(), *handled, self._ready_when]
         self._parts = dict.fromkeys(part for each in all_conditions for part in walk(each))
         self._logged = [part for part in self._parts if isinstance(part, Logged)]
         self._nodes = {node: NodeState() for node in self._conditions}
@@ -156,6 +169,8 @@ class Scheduler:
         """Expired waits of optional nodes, which will not be started any more."""
         self.shutdown: Shutdown | None = None
         """Set when a handler stops the stack."""
+        self.lines: deque[Log] = deque()
+        """What handlers have written, to be shown."""
         self.over = False
         """Whether nothing more is started and what runs is to be stopped."""
 
@@ -169,6 +184,7 @@ class Scheduler:
         self._last_start[node] = self._state.time
         self._nodes[node] = NodeState(started=True, restarts=self._nodes[node].restarts)
         self._update()
+        self._call_handlers()
 
     def on_exit(self, node: Node, returncode: int, last_lines: Sequence[str] = ()) -> None:
         """
@@ -189,7 +205,8 @@ class Scheduler:
         if self.over:
             return
         if callable(node.on_exit):
-            self._apply(call_exit_handler(node.on_exit, Exited(node, returncode, last_lines)))
+            self._react('on_exit', node.on_exit, Exited(node, returncode, last_lines))
+        self._call_handlers()
         failed = returncode != 0 or node.respawn is not None
         blocks_a_required_node = any(waiting.required for waiting in self.unreachable())
         if failed and (node.required or blocks_a_required_node):
@@ -208,6 +225,10 @@ class Scheduler:
         }
         if found:
             self._update(triggered=triggered | found)
+        if node.on_output is not None and not self.over:
+            self._react('on_output', node.on_output, line)
+            self.over = self.over or self.shutdown is not None
+            return bool(found or self.lines or self.over)
         return bool(found)
 
     def observe(
@@ -231,6 +252,7 @@ class Scheduler:
         node is abandoned.
         """
         self.set_time(time)
+        self._call_handlers()
         while not self.over:
             expired = self._timeouts.expired(self.waits(), self._state)
             if expired is None:
@@ -245,7 +267,8 @@ class Scheduler:
     def next_time(self) -> float | None:
         """Return when :meth:`advance_to` has something to do, s; None: only after an event."""
         times = [node.restart_at for node in self._nodes.values()]
-        for _, condition in self.waits():
+        handled = ((None, handler.when) for handler in self._handlers)
+        for _, condition in (*self.waits(), *handled):
             times += [part.due(self._state) for part in walk(condition) if isinstance(part, After)]
         times += self._timeouts.deadlines(self.waits(), self._state)
         return min((t for t in times if t is not None and t > self._state.time), default=None)
@@ -292,18 +315,36 @@ class Scheduler:
         is_lost = not self.ready and self._ready_when.evaluate(self._state) is Verdict.NEVER
         return self._ready_when if is_lost else None
 
-    def _apply(self, result: HandlerResult) -> None:
-        """Do what an exit handler has returned."""
-        self.shutdown = result.shutdown
+    def _call_handlers(self) -> None:
+        """Call the event handlers whose condition holds now."""
+        while not self.over:
+            due = [each for each in self._handlers if each.when.evaluate(self._state) in _OVER]
+            if not due:
+                return
+            self._handlers = [each for each in self._handlers if each not in due]
+            for handler in due:
+                if handler.when.evaluate(self._state) is Verdict.HOLDS:
+                    self._react('an event handler', handler.run, self._state)
+            self.over = self.shutdown is not None
+
+    def _react[T](self, name: str, handler: Callable[[T], Reaction], event: T) -> None:
+        """Call a handler, and do what it returns."""
+        self._apply(name, call_handler(name, handler, event))
+
+    def _apply(self, name: str, result: HandlerResult) -> None:
+        """Do what a handler has returned."""
+        self.lines += result.lines
+        self.shutdown = self.shutdown or result.shutdown
         try:
             nodes = list(nodes_of(result.members))
         except BringupError as error:
-            self.shutdown = Shutdown(f'on_exit returned what is no reaction: {error}', exit_code=1)
+            text = f'{name} returned what is no reaction: {error}'
+            self.shutdown = Shutdown(text, exit_code=1)
             return
         for node in nodes:
             if not waits_for_request(self._conditions.get(node)):
                 self.shutdown = Shutdown(
-                    f'on_exit asks for {node}, which is not in the stack with '
+                    f'{name} asks for {node}, which is not in the stack with '
                     'start_when=on_request()',
                     exit_code=1,
                 )
@@ -339,9 +380,9 @@ class Scheduler:
     def _is_idle(self) -> bool:
         """Return whether nothing runs, and nothing that waits will ever start."""
         is_alive = any(n.running or n.restart_at is not None for n in self._nodes.values())
-        may_start = any(
-            condition.is_external for node, condition in self.waits() if node is not None
-        )
+        waits = [condition for node, condition in self.waits() if node is not None]
+        waits += [handler.when for handler in self._handlers]
+        may_start = any(each.is_external or has_running_timer(each, self._state) for each in waits)
         return not (is_alive or may_start or self.startable())
 
     def _update(self, **changes: Any) -> None:

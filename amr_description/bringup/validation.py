@@ -110,7 +110,7 @@ def _is_word(value: object) -> bool:
 
 def _is_environment(value: object) -> bool:
     return isinstance(value, Mapping) and all(
-        _is_text(name) and name and '=' not in name and _is_text(content)
+        _is_text(name) and name and '=' not in name and (content is None or _is_text(content))
         for name, content in value.items()
     )
 
@@ -127,10 +127,6 @@ NAMESPACE = Validator(
     lambda value: _is_text(value) and bool(_NAMESPACE.fullmatch(value)),
 )
 FILE_NAME = Validator('a name without a path', lambda v: _is_text(v) and bool(v) and '/' not in v)
-PARAMETERS = list_of(
-    "tables and files, as [{'speed': 1.0}, 'arm.yaml']",
-    lambda entry: isinstance(entry, Mapping | str | PathLike),
-)
 REMAPPINGS = list_of("pairs, as [('/cmd_vel', '/arm/cmd_vel')]", is_pair)
 ARGUMENTS = list_of("words, as ['--times', 3]", _is_word)
 VALUE = Validator('a text, a number, True, False or a path', _is_word)

@@ -1,12 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Run a launch file.
+Run a launch file: one of ROS, which imports launch and launch_ros, in Python, XML or YAML.
 
-Here that is a stack: one of amr_description's by its name, or a Python file with a function that
-returns one (amr_description/bringup/__init__.py shows how). Ctrl-C stops all that it started.
+Or a stack: one of amr_description's by its name, or a Python file with a function that returns
+one (amr_description/bringup/__init__.py shows how). Ctrl-C stops all that it started.
 
 examples:
+  ros2 launch my_package my.launch.py
+  ros2 launch path/to/my.launch.py use_sim_time:=true
   ros2 launch amr_description simulation
   ros2 launch amr_description simulation --show-args
   ros2 launch amr_description simulation rtf:=0
@@ -15,6 +17,7 @@ examples:
 """
 
 from argparse import ArgumentParser, Namespace
+from pathlib import Path
 import sys
 
 
@@ -26,13 +29,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         help='Name of the ROS package which contains the launch file, or path of a file',
     )
     parser.add_argument(
-        'launch_file_name', nargs='?', help='Name of the stack, or of the launch file'
+        'launch_file_name', nargs='?', help='Name of the launch file, or of a stack'
     )
     parser.add_argument(
         'launch_arguments',
         nargs='*',
         metavar='name:=value',
-        help='Arguments of the stack; for duplicates, the last one wins',
+        help='Arguments of the launch file; for duplicates, the last one wins',
     )
 
 
@@ -91,11 +94,20 @@ def main(args: Namespace) -> int:
     """Become the bring-up; return its exit code."""
     from amr_description.bringup import environment
     from amr_description.bringup.main import main as bringup
-    from amr_description.cli.launch_files import find_launch_file
+    from amr_description.cli.launch_files import find_launch_file, is_launch_file
 
     stack, arguments = find_launch_file(
         args.package_name, args.launch_file_name, args.launch_arguments
     )
+    source = None
+    if is_launch_file(stack):
+        from amr_description.launch_api.launch_file import LaunchFile
+        from amr_description.launch_api.original import launch_by_the_original
+
+        code = launch_by_the_original(Path(stack), arguments, show=args.show_args)
+        if code is not None:
+            return code
+        source = LaunchFile(Path(stack))
     options = [
         *(['--show-args'] if args.show_args else []),
         *(['--print'] if args.print else []),
@@ -105,4 +117,4 @@ def main(args: Namespace) -> int:
         *environment.as_arguments(args),
     ]
     sys.stdout.flush()
-    return bringup([*options, stack, *arguments], prog='ros2 launch')
+    return bringup([*options, stack, *arguments], prog='ros2 launch', source=source)

@@ -1,21 +1,22 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``ros2 launch`` is asked for -> what the bring-up starts: a stack's name, or its file."""
+"""What ``ros2 launch`` is asked for -> a stack's name, its file, or a launch file of ROS."""
 
 import ast
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
-import sys
 
 from amr_description.ament_index import is_installed, package_prefix
 from amr_description.bringup.stacks import STACKS
-from amr_description.cli.not_offered import INSTEAD_OF_PACKAGES
 from amr_description.errors import AmrError, UsageError
+from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 from amr_description.text import suggestion
 
 _OURS = 'amr_description'
 _TUTORIALS = {'gazebo': 'simulation'}  # as the tutorial calls its launch file -> our stack
+_FUNCTION = 'generate_launch_description'
+_MARKUP = ('.xml', '.yaml', '.yml', '.launch')
 _SUFFIXES = ('.launch.py', '.launch.xml', '.launch.yaml', '.launch', '.py')
 
 
@@ -23,7 +24,7 @@ def find_launch_file(
     package: str, file: str | None, arguments: Sequence[str]
 ) -> tuple[str, list[str]]:
     """
-    Return a stack, as the bring-up takes it, and its arguments.
+    Return a stack, as the bring-up takes it, or the path of a launch file, and its arguments.
 
     :param package: A package, or the path of a file.
     :param file: The name of a launch file; after a path the first argument.
@@ -41,9 +42,10 @@ def stacks_of(package: str) -> list[str]:
     """Return what may be launched of a package: names of stacks, or files. Raises AmrError."""
     share = package_prefix(package) / 'share' / package
     files = []
+    files += [path.name for ending in _MARKUP for path in share.rglob(f'*.launch{ending}')]
     for path in share.rglob('*.py'):
         with suppress(AmrError):
-            if path.stem in _functions(path):
+            if {path.stem, _FUNCTION} & _functions(path):
                 files.append(path.name)
     return [*(STACKS if package == _OURS else ()), *sorted(files)]
 
@@ -63,15 +65,6 @@ def _of_package(package: str, file: str) -> str:
             f"file '{file}' was found more than once in the share directory of package "
             f"'{package}': [{paths}]"
         )
-    if found and package == _OURS and _is_foreign(found[0]):
-        with suppress(AmrError):
-            stack = _ready_made(file)
-            print(
-                f"[ros2launch]: launch files are not supported here: in place of '{found[0]}' the "
-                f"stack '{stack}' is started",
-                file=sys.stderr,
-            )
-            return stack
     if found:
         return _stack_file(found[0])
     if package == _OURS:
@@ -102,20 +95,32 @@ def _known_stacks() -> str:
 
 
 def _stack_file(path: Path) -> str:
-    """Return the path if there is a file with a stack in it, as the bring-up reads it."""
+    """Return the path if there is a file with a stack in it, or a launch file. Raises AmrError."""
     if not path.is_file():
         raise AmrError(f"there is no launch file '{path}'; {_known_stacks()}")
-    if _is_foreign(path):
-        raise _foreign(path)
+    if path.suffix not in ('.py', *_MARKUP):
+        endings = ', '.join(_SUFFIXES)
+        raise AmrError(f"'{path}': the name of a launch file ends with one of {endings}")
     return str(path)
 
 
-def _is_foreign(path: Path) -> bool:
-    """Return whether it is a launch file of ROS, and no stack. Raises AmrError."""
-    if path.suffix != '.py':
-        return True
+def is_launch_file(stack: str) -> bool:
+    """
+    Return whether it is a launch file of ROS, and no stack.
+
+    Args:
+        stack: as :func:`find_launch_file` returns it.
+
+    Raises:
+        AmrError: it is not Python.
+    """
+    path = Path(stack)
+    if stack in STACKS or path.suffix in _MARKUP:
+        return stack not in STACKS
     functions = _functions(path)
-    return path.stem not in functions and 'generate_launch_description' in functions
+    return path.stem not in functions and (
+        _FUNCTION in functions or path.name.endswith('.launch.py')
+    )
 
 
 def _functions(path: Path) -> set[str]:
@@ -128,17 +133,3 @@ def _functions(path: Path) -> set[str]:
     except (ValueError, OSError) as error:
         raise AmrError(f"'{path}': is not Python: {error}") from error
     return {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-
-
-def _foreign(path: Path) -> AmrError:
-    name = path.name.partition('.')[0]
-    name = _TUTORIALS.get(name, name)
-    would_do = (
-        f'for the one of the tutorial: ros2 launch {_OURS} {name}'
-        if name in STACKS
-        else f'or one of: {", ".join(STACKS)} (ros2 launch {_OURS} NAME)'
-    )
-    return AmrError(
-        f"'{path}': launch files (*.launch.py, .xml, .yaml) are not supported here; use a stack "
-        f'(docs/write_your_own_stack.md), {would_do}'
-    )

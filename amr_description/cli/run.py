@@ -21,34 +21,9 @@ import shutil
 import sys
 
 from amr_description.errors import AmrError, UsageError
+from amr_description.stand_ins import INSTEAD_OF_PACKAGES, STAND_INS
 
 _OURS = 'amr_description'
-
-# (package, executable) -> our executable that replaces it if the package is not installed, with
-# the arguments that make it compatible; they come last, so arguments of the user win.
-STAND_INS = {
-    ('controller_manager', 'hardware_spawner'): 'hardware_spawner',
-    ('controller_manager', 'ros2_control_node'): 'ros2_control_node',
-    ('controller_manager', 'spawner'): 'spawner',
-    ('controller_manager', 'unspawner'): 'unspawner',
-    ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',
-    ('demo_nodes_py', 'talker'): 'talker --ros-args -r __node:=talker -r topic:=chatter',
-    ('joint_state_publisher', 'joint_state_publisher'): 'joint_state_publisher',
-    ('nav2_map_server', 'map_saver_cli'): 'map_saver_cli',
-    ('nav2_map_server', 'map_server'): 'map_server',
-    ('py_pubsub', 'listener'): 'listener',
-    ('py_pubsub', 'talker'): 'talker',
-    ('robot_localization', 'ekf_node'): 'ekf_node',
-    ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
-    ('ros_gz_sim', 'create'): 'create',
-    ('teleop_twist_keyboard', 'teleop_twist_keyboard'): 'teleop_twist_keyboard',
-    ('tf2_ros', 'static_transform_publisher'): 'static_transform_publisher',
-    ('tf2_ros', 'tf2_echo'): 'tf2_echo',
-    ('tf2_ros', 'tf2_monitor'): 'tf2_monitor',
-    ('tf2_tools', 'view_frames'): 'view_frames',
-    ('twist_mux', 'twist_mux'): 'twist_mux',
-    ('xacro', 'xacro'): 'xacro',
-}
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -88,7 +63,6 @@ def main(args: Namespace) -> int:
 def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
     """Return the path of an executable, and what to append to its words. Raises AmrError."""
     from amr_description.ament_index import executables_of, is_own, overlay, packages
-    from amr_description.cli.not_offered import INSTEAD_OF_PACKAGES
     from amr_description.text import did_you_mean
 
     known = packages()

@@ -17,7 +17,7 @@ def packages(_args: Namespace, _prefix: str) -> Iterable[str]:
 
 def run_packages(_args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the packages with executables, and those that ours replace."""
-    from amr_description.cli.run import STAND_INS
+    from amr_description.stand_ins import STAND_INS
 
     folders = installed_packages().items()
     runnable = (name for name, prefix in folders if (prefix / 'lib' / name).is_dir())
@@ -26,7 +26,7 @@ def run_packages(_args: Namespace, _prefix: str) -> Iterable[str]:
 
 def executables(args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the executables of the package on the line."""
-    from amr_description.cli.run import STAND_INS
+    from amr_description.stand_ins import STAND_INS
 
     if args.package_name in installed_packages():
         return [path.name for path in executables_of(args.package_name)]

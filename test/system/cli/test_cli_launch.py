@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """``ros2 launch``: what is understood as a stack, what is told otherwise, and that it is one."""
 
+import re
 import signal
 
 from fixtures.bringup.running import Bringup, install_toys, STACKS
 from fixtures.cli.commands import ros2
 import pytest
-from support.paths import ROOT
 
-from amr_description.cli.launch_files import find_launch_file
+from amr_description.cli.launch_files import find_launch_file, is_launch_file
 from amr_description.errors import AmrError, UsageError
 
 PLAIN = str(STACKS / 'plain.py')
@@ -52,33 +52,33 @@ def test_a_file_is_known_by_its_path(share, monkeypatch):
     assert find_launch_file('plain.py', None, []) == ('plain.py', [])
 
 
-def test_in_place_of_the_tutorials_launch_files_our_stacks_are_started(share, capsys):
-    own = share.parents[1] / 'amr_description/launch/gazebo.launch.py'
-    own.parent.mkdir(parents=True)
-    own.write_text(FOREIGN)
-    found = find_launch_file('amr_description', 'gazebo.launch.py', ['rtf:=2.0'])
-    assert found == ('simulation', ['rtf:=2.0'])
-    assert capsys.readouterr().err == (
-        f"[ros2launch]: launch files are not supported here: in place of '{own}' the stack "
-        "'simulation' is started\n"
-    )
-
-
 @pytest.mark.parametrize('name', ['gazebo.launch.py', 'mine.launch.py'])
-def test_other_launch_files_of_a_package_of_our_name_are_heeded(share, name):
+def test_launch_files_of_a_package_of_our_name_come_first(share, name):
     own = share.parents[1] / 'amr_description/launch' / name
     own.parent.mkdir(parents=True)
     own.write_text(FOREIGN)
-    given = ('amr_description', name) if name.startswith('mine') else (str(own), None)
-    with pytest.raises(AmrError, match=f"'{own}': launch files .* are not supported here") as told:
-        find_launch_file(*given, [])
-    if name.startswith('mine'):
-        return
-    assert str(told.value).endswith(
-        'use a stack (docs/write_your_own_stack.md), for the one of the tutorial: '
-        'ros2 launch amr_description simulation'
-    )
-    assert (ROOT / 'docs/write_your_own_stack.md').is_file()
+    assert find_launch_file('amr_description', name, ['a:=b']) == (str(own), ['a:=b'])
+    assert find_launch_file(str(own), 'a:=b', []) == (str(own), ['a:=b'])
+    assert is_launch_file(str(own))
+
+
+@pytest.mark.parametrize(
+    ('name', 'text', 'is_one'),
+    [
+        ('robot.launch.py', FOREIGN, True),
+        ('robot_launch.py', FOREIGN, True),
+        ('robot.launch.py', 'x = 1', True),
+        ('robot.launch.xml', '<launch/>', True),
+        ('robot.launch.yaml', 'launch: []', True),
+        ('robot.py', 'def robot(): ...', False),
+        ('robot.py', f'{FOREIGN}def robot(): ...', False),
+        ('robot.py', 'x = 1', False),
+    ],
+)
+def test_launch_files_and_stacks_are_told_apart(share, name, text, is_one):
+    (share / name).write_text(text)
+    assert is_launch_file(find_launch_file('toys', name, [])[0]) is is_one
+    assert not is_launch_file('simulation')
 
 
 @pytest.mark.parametrize(
@@ -131,12 +131,7 @@ def test_two_of_one_name_are_told(share):
 @pytest.mark.parametrize(
     ('name', 'text', 'said'),
     [
-        (
-            'robot.launch.py',
-            FOREIGN,
-            r'launch files \(.*\) are not supported here; use a stack \(docs',
-        ),
-        ('robot.launch.xml', '<launch/>', 'not supported here.* or one of: display, fleet, '),
+        ('robot.urdf', '<robot/>', 'the name of a launch file ends with one of .launch.py'),
         ('broken.py', 'def broken(:\n', r"broken.py', line 1: is not Python: invalid syntax"),
         ('zero.py', '\0', 'is not Python: '),
     ],
@@ -144,7 +139,7 @@ def test_two_of_one_name_are_told(share):
 def test_what_is_no_stack_is_told_in_one_line(share, name, text, said):
     (share / name).write_text(text)
     with pytest.raises(AmrError, match=said) as told:
-        find_launch_file('toys', name, [])
+        is_launch_file(find_launch_file('toys', name, [])[0])
     assert str(told.value).count('\n') == 0
 
 
@@ -208,3 +203,76 @@ def test_ctrl_c_in_a_terminal_stops_all(tmp_path):
 def test_the_exit_code_is_that_of_the_bring_up(tmp_path):
     with Launch(tmp_path, str(STACKS / 'chatty.py'), 'text:=x', 'code:=5') as launch:
         assert launch.end() == 5
+
+
+LAUNCH_FILE = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
+from launch.substitutions import LaunchConfiguration, LocalSubstitution
+from launch_ros.actions import Node
+
+def heard(event):
+    if b'plain is up' in event.text:
+        return LogInfo(msg='heard it')
+
+def generate_launch_description():
+    words = ['echo $GREETING; exit ', LaunchConfiguration('code')]
+    first = ExecuteProcess(cmd=['sh', '-c', words],
+        additional_env={'GREETING': 'good day'}, cwd='/')
+    plain = Node(package='toys', executable='plain', arguments=['130'])
+    return LaunchDescription([
+        DeclareLaunchArgument('code', default_value='3', description='How the first one ends.'),
+        first,
+        RegisterEventHandler(OnProcessExit(target_action=first,
+            on_exit=[LogInfo(msg='the first is over'), plain])),
+        RegisterEventHandler(OnProcessIO(target_action=plain, on_stdout=heard)),
+        RegisterEventHandler(OnShutdown(on_shutdown=[
+            LogInfo(msg=['stops: ', LocalSubstitution('event.reason')])])),
+    ])
+"""
+
+
+@pytest.fixture
+def launch_file(tmp_path):
+    path = tmp_path / 'my.launch.py'
+    path.write_text(LAUNCH_FILE)
+    return str(path)
+
+
+def test_a_launch_file_is_run(tmp_path, launch_file):
+    with Launch(tmp_path, launch_file) as launch:
+        launch.expect(r'\[launch.user\]: heard it')
+        assert launch.end(signal.SIGINT) == 0
+        assert '[sh-1] good day' in launch.output
+        assert re.search(r'sh-1.*: process has died .*exit code 3', launch.output)
+        assert launch.output.index('the first is over') < launch.output.index('plain is up')
+        assert '[INFO] [launch.user]: stops: ctrl-c (SIGINT)' in launch.output
+        assert 'Traceback' not in launch.output
+        assert launch.left() == []
+
+
+def test_a_launch_file_is_shown_and_printed(share, launch_file):
+    shown = ros2('launch', launch_file, '--show-args')
+    assert (shown.returncode, shown.stderr) == (0, '')
+    assert shown.stdout == (
+        "Arguments (pass arguments as '<name>:=<value>'):\n\n    'code':\n"
+        "        How the first one ends.\n        (default: '3')\n"
+    )
+    printed = ros2('launch', launch_file, '--print', 'code:=0', 'cod:=1')
+    assert (printed.returncode, printed.stderr) == (0, '')
+    assert printed.stdout.startswith(
+        "[WARNING] nothing in it reads the argument 'cod'; did you mean 'code'? known: code\n"
+        "sh-1: at once, optional\n    sh -c 'echo $GREETING; exit 0'\n"
+        '    GREETING=good day\n    in /\nplain-2: when sh-1 exited, optional\n'
+    )
+
+
+def test_a_launch_file_that_is_refused(share):
+    (share / 'odd.launch.py').write_text(
+        LAUNCH_FILE.replace("executable='plain'", "executable='x'")
+    )
+    refused = ros2('launch', 'toys', 'odd.launch.py')
+    assert (refused.returncode, refused.stdout) == (1, '')
+    assert refused.stderr.startswith("ros2 launch: odd.launch.py:16: executable 'x' not found on")
+    assert refused.stderr.count('\n') == 1

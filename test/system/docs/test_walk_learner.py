@@ -29,12 +29,7 @@ from support.doc_pages import Page, ROOT
 from support.shells import CTRL_C, newcomer, PROMPT
 
 README, PACKAGE, SIMULATOR = map(Page, ('../README.md', 'your_own_package.md', 'simulator.md'))
-LAUNCH_FILE = """
-from launch import LaunchDescription
-
-def generate_launch_description():
-    return LaunchDescription([])
-"""
+THEIRS = ROOT / 'test/fixtures/tutorial'
 
 
 @pytest.fixture
@@ -81,15 +76,20 @@ def test_her_first_package(home):
 
 @pytest.fixture
 def tutorials_package(home):
-    """``amr_description`` as the tutorial makes it, in a workspace of hers: the workspace."""
+    """
+    ``amr_description`` as the tutorial makes it, in a workspace of hers: the workspace.
+
+    Its files are those of the tutorial, letter for letter, but for the name of the robot, and for
+    the path that it leaves to the reader.
+    """
     package = home / 'tut_ws/src/amr_description'
-    for folder in ('urdf', 'launch', 'resource', 'amr_description'):
+    for folder in ('urdf', 'config', 'launch', 'resource', 'amr_description'):
         (package / folder).mkdir(parents=True)
     text = (ROOT / 'examples/py_pubsub/setup.py').read_text()
     text = re.sub(r"'console_scripts': \[.*?\]", "'console_scripts': []", text, flags=re.DOTALL)
     folders = ''.join(
         f"        ('share/' + package_name + '/{name}', glob('{name}/*')),\n"
-        for name in ('urdf', 'launch')
+        for name in ('urdf', 'config', 'launch')
     )
     text = text.replace('    ],\n    install_', f'{folders}    ],\n    install_')
     text = text.replace('py_pubsub', 'amr_description')
@@ -99,8 +99,13 @@ def tutorials_package(home):
         (package / name).write_text(given.replace('py_pubsub', 'amr_description'))
     (package / 'resource/amr_description').touch()
     (package / 'amr_description/__init__.py').touch()
-    (package / 'launch/gazebo.launch.py').write_text(LAUNCH_FILE)
-    hers = (ROOT / 'urdf/amr.urdf').read_text().replace('name="amr"', 'name="hers"')
+    for name in ('gazebo', 'display'):
+        text = (THEIRS / f'{name}_launch.txt').read_text()
+        (package / f'launch/{name}.launch.py').write_text(text)
+    parameters = package / 'config/controllers.yaml'
+    parameters.write_text((THEIRS / 'controllers.yaml').read_text())
+    hers = (THEIRS / 'amr.urdf').read_text().replace('name="amr"', 'name="hers"')
+    hers = hers.replace('/absolute/path/to/config/controllers.yaml', str(parameters))
     (package / 'urdf/amr.urdf').write_text(hers)
     return package.parents[1]
 
@@ -110,39 +115,52 @@ colcon build --symlink-install
 source install/setup.bash
 ros2 topic list
 check_urdf src/amr_description/urdf/amr.urdf
+ros2 launch amr_description display.launch.py --print
 ros2 launch amr_description gazebo.launch.py
-ros2 launch amr_description mock
+ros2 control list_controllers
+ros2 topic pub --once /diff_drive_controller/cmd_vel geometry_msgs/msg/TwistStamped \\
+  "{header: {frame_id: base_link}, twist: {linear: {x: 0.5}, angular: {z: 0.0}}}"
 ros2 param get /robot_state_publisher robot_description
 """
 
 
 def test_the_tutorials_own_package(home, tutorials_package):
+    """Its launch files, too, which import ``launch`` and ``launch_ros``."""
     with newcomer(TUTORIAL, home, activate='') as shell:
         shell.book = f'source scripts/activate\ncd {tutorials_package}\n{TUTORIAL}'
         for line in ('source scripts/', 'cd', 'colcon', 'source install/'):
             shell.run(line)
         assert '/parameter_events' in shell.run('ros2 topic list')
         assert shell.run('check_urdf').startswith('robot name is: hers\n')
-        shell.book = (
-            TUTORIAL + f'ros2 launch {tutorials_package}/src/amr_description/launch/gazebo'
-        )
-        shell.book += '.launch.py'
-        refused = shell.run(f'ros2 launch {tutorials_package}', code=1)
-        assert 'launch files (*.launch.py, .xml, .yaml) are not supported here' in refused
-        assert refused.endswith(
-            'for the one of the tutorial: ros2 launch amr_description simulation\n'
-        )
+        printed = shell.run('ros2 launch amr_description display.launch.py')
+        assert 'in place of joint_state_publisher_gui, rviz2: the page' in printed
+        assert '<robot name=\\"hers\\">' in printed
         shell.start('ros2 launch amr_description gazebo')
-        shell.see(r"in place of '.*/gazebo\.launch\.py' the stack 'simulation' is started")
         shell.see('overlays this one: its files come first')
+        shell.see('not installed, so those of amr_description are started: robot_state_publisher')
         shell.see(r'ready in \d+\.\d s')
         with newcomer(SIMULATOR.text, home) as other:
             status = other.run('ros2 run amr_description bringup status')
             assert 'robot_state_publisher' in status
-            other.book = TUTORIAL + SIMULATOR.text
+            other.book = TUTORIAL + SIMULATOR.text + ODOMETRY
             assert '<robot name="hers"' in other.run('ros2 param get')
+            controllers = other.run('ros2 control list_controllers')
+            assert (
+                len(re.findall(r'(?m)^(?:joint_state|diff_drive)_.* active *$', controllers)) == 2
+            )
+            assert 'publishing #1' in other.run('ros2 topic pub --once /diff_drive')
+            while abs(odometry_x(other)) < 0.05:  # its axes point to the right: it drives back
+                pass
             other.run('ros2 run amr_description bringup stop')
         shell.see(re.escape(PROMPT))
+
+
+ODOMETRY = 'ros2 topic echo --once --field pose.pose.position.x /diff_drive_controller/odom\n'
+
+
+def odometry_x(shell):
+    """How far the robot has come, m."""
+    return float(shell.run(ODOMETRY.strip()).split()[0])
 
 
 def test_a_launch_that_is_broken_off(home):

@@ -6,7 +6,18 @@ import itertools
 
 import pytest
 
-from amr_description.bringup import all_of, exited_cleanly, Node, Stack, started
+from amr_description.bringup import (
+    after,
+    all_of,
+    EventHandler,
+    exited,
+    exited_cleanly,
+    Log,
+    Node,
+    Shutdown,
+    Stack,
+    started,
+)
 from amr_description.bringup.reporter import failure_report
 from amr_description.bringup.scheduler import Failure, Scheduler
 from amr_description.errors import BringupError
@@ -134,3 +145,58 @@ def test_the_failure_report_ends_with_one_complete_line():
     assert failure_report('sim-1', Failure(Node('sim'), -40), [line], []) == [
         "stopped because sim-1 died of signal 40: world 'x' [1]: no file"
     ]
+
+
+@pytest.mark.parametrize('code', [0, 5])
+def test_a_node_may_wait_for_any_end_of_another_one(code):
+    first = Node('first', required=False)
+    second = Node('second', start_when=exited(first))
+    scheduler = Scheduler(Stack([first, second]))
+    scheduler.on_start(first)
+    assert scheduler.startable() == []
+    scheduler.on_exit(first, code)
+    assert scheduler.startable() == [second]
+
+
+def test_event_handlers_are_called_once_when_their_condition_holds():
+    first, second = Node('first', required=False), Node('second')
+    seen = []
+
+    def note(state):
+        seen.append(state.nodes[first].returncode)
+        return Log('noted')
+
+    stop = EventHandler(after(3.0, exited(first)), lambda _: [Log('b'), Shutdown('enough', 9)])
+    stack = Stack([first, second], event_handlers=[EventHandler(exited(first), note), stop])
+    scheduler = Scheduler(stack, 10.0)
+    for node in stack.nodes:
+        scheduler.on_start(node)
+    assert seen == []
+    scheduler.on_exit(first, 4)
+    assert seen == [4]
+    assert scheduler.next_time() == 13.0
+    scheduler.on_exit(second, 0)
+    assert not scheduler.over  # a handler counts down
+    scheduler.advance_to(13.0)
+    assert seen == [4]
+    assert [line.text for line in scheduler.lines] == ['noted', 'b']
+    assert scheduler.over
+    assert scheduler.shutdown.exit_code == 9
+
+
+def test_an_event_handler_that_raises_stops_the_stack():
+    node = Node('node')
+    stack = Stack([node], event_handlers=[EventHandler(started(node), lambda _: 1 / 0)])
+    scheduler = Scheduler(stack)
+    scheduler.on_start(node)
+    assert scheduler.over
+    assert 'an event handler failed: ZeroDivisionError' in scheduler.shutdown.reason
+
+
+def test_lines_of_output_may_be_handled():
+    node = Node('node', on_output=lambda line: Log(line.upper()) if 'a' in line else None)
+    scheduler = Scheduler(Stack([node]))
+    scheduler.on_start(node)
+    assert not scheduler.on_line(node, 'b')
+    assert scheduler.on_line(node, 'a')
+    assert list(scheduler.lines) == [Log('A')]

@@ -1,0 +1,155 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Packages that are not installed, and what takes their place: as ``ros2 run`` does, and for Gazebo.
+
+A package that is known here, but not installed, has a share folder where nothing is: launch files
+of it may be included if there is one of ours in its place (``gazebo_files.py``).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ament_index_python import get_package_prefix
+from ament_index_python.packages import PackageNotFoundError
+
+from amr_description.ament_index import is_installed, own_share
+from amr_description.errors import BringupError
+from amr_description.launch_api.locations import refusal
+from amr_description.stand_ins import INSTEAD_OF_PACKAGES, STAND_INS
+
+_FOLDER = 'not_installed'
+_NO_BRIDGE = INSTEAD_OF_PACKAGES['ros_gz_bridge']
+_LEFT_OUT = {
+    ('ros_gz_bridge', 'parameter_bridge'): _NO_BRIDGE,
+    ('ros_gz_bridge', 'bridge_node'): _NO_BRIDGE,
+    ('ros_gz_image', 'image_bridge'): _NO_BRIDGE,
+}
+_ON_THE_PAGE = {
+    ('gazebo_ros', 'gzclient'): '',
+    ('joint_state_publisher_gui', 'joint_state_publisher_gui'): 'joint_state_publisher',
+    ('rviz2', 'rviz2'): '',
+}
+"""(package, executable) -> our executable beside the page; '': the page alone."""
+_KNOWN = {
+    *INSTEAD_OF_PACKAGES,
+    *(package for package, _ in (*STAND_INS, *_LEFT_OUT, *_ON_THE_PAGE)),
+    'gz_ros2_control',
+    'rviz_common',
+}
+_OPTIONS_OF_SPAWN_ENTITY = {
+    '-entity': '-name',
+    '-topic': '-topic',
+    '-file': '-file',
+    **{f'-{axis}': f'-{axis}' for axis in 'xyzRPY'},
+}
+
+
+class PackageMissing(BringupError, PackageNotFoundError):  # noqa: N818 - as its base
+    """A package is not installed, and nothing is in its place."""
+
+    def __str__(self) -> str:
+        """Return the text; a KeyError would put it in quotes."""
+        return str(self.args[0])
+
+
+@dataclass(frozen=True)
+class Counterpart:
+    """What is started in place of an executable."""
+
+    executable: str = ''
+    """One of ours; '': none."""
+    words: Sequence[str] = ()
+    """Arguments that come last."""
+    has_page: bool = False
+    """Whether the page of the viewer takes its place."""
+    why: str = ''
+    """Why nothing is started."""
+
+
+def counterpart_of(package: str, executable: str) -> Counterpart | None:
+    """Return what takes the place of an executable; None: its package is needed."""
+    pair = (package, executable)
+    if is_installed(package):
+        return None
+    if pair in _LEFT_OUT:
+        return Counterpart(why=_LEFT_OUT[pair])
+    if pair in _ON_THE_PAGE:
+        return Counterpart(_ON_THE_PAGE[pair], has_page=True)
+    if pair == ('gazebo_ros', 'spawn_entity.py'):
+        return Counterpart('create')
+    if pair in STAND_INS:
+        ours, *words = STAND_INS[pair].split()
+        return Counterpart(ours, words)
+    return None
+
+
+def arguments_as_ours(executable: str, arguments: Sequence[str]) -> list[str]:
+    """Return the arguments of an executable as our counterpart takes them."""
+    if executable == 'create':
+        return ['-name' if word == '-entity' else word for word in arguments]
+    if executable != 'spawn_entity.py':
+        return list(arguments)
+    pairs = zip(arguments, arguments[1:], strict=False)
+    return [
+        word
+        for option, value in pairs
+        if option in _OPTIONS_OF_SPAWN_ENTITY
+        for word in (_OPTIONS_OF_SPAWN_ENTITY[option], value)
+    ]
+
+
+def require_package(package: str) -> None:
+    """Raise BringupError unless a package is installed."""
+    if not is_installed(package):
+        raise missing(package)
+
+
+def missing(package: str) -> PackageMissing:
+    """Return the error about a package that is not installed."""
+    instead = INSTEAD_OF_PACKAGES.get(package)
+    ours = sorted(name for owner, name in STAND_INS if owner == package)
+    if ours:
+        return PackageMissing(f"package '{package}' not found; of it there are here: {ours}")
+    why = f': {instead}' if instead else '; build it and source its workspace first'
+    return PackageMissing(f"package '{package}' not found{why}")
+
+
+def share_of(package: str) -> str:
+    """Return the share folder of a package, as ament_index_python does. Raises BringupError."""
+    return str(Path(prefix_of(package), 'share', package))
+
+
+def prefix_of(package: str) -> str:
+    """
+    Return the prefix of a package; that of a known one that is not installed is an empty folder.
+
+    Raises BringupError: it is not installed, and not known.
+    """
+    try:
+        return str(get_package_prefix(package))
+    except (PackageNotFoundError, OSError, ValueError):
+        if package in _KNOWN:
+            return str(own_share() / _FOLDER)
+        raise missing(package) from None
+
+
+def in_package(path: Path) -> tuple[str, str] | None:
+    """Return (package, file) of a path in a package that is not installed; None: it is none."""
+    root = own_share() / _FOLDER / 'share'
+    if not path.is_relative_to(root):
+        return None
+    package, *below = path.relative_to(root).parts
+    return package, '/'.join(below)
+
+
+def not_here(package: str, file: str, known: Sequence[str]) -> BringupError:
+    """Return the error about a launch file of a package that is not installed."""
+    if not known:
+        return missing(package)
+    return refusal(
+        f"package '{package}' is not installed, and '{file}' of it has nothing in its place here; "
+        f'there are {", ".join(known)}',
+        '',
+    )

@@ -1,0 +1,73 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""A launch file for ``ros2 launch``: what it takes, and the stack that it is translated into."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from amr_description.bringup import user_errors
+from amr_description.bringup.description import Stack
+from amr_description.bringup.handlers import Level
+from amr_description.errors import AmrError, BringupError
+from amr_description.launch_api import including, markup
+from amr_description.launch_api.context import LaunchContext, NAMESPACE, PARAMETERS, REMAPPINGS
+from amr_description.launch_api.descriptions import (
+    declared_arguments,
+    LaunchDescription,
+    show_arguments,
+)
+from amr_description.launch_api.including import (
+    IncludeLaunchDescription,
+    LaunchDescriptionSource,
+    read,
+)
+from amr_description.launch_api.modules import understood
+from amr_description.launch_api.translation import translated
+from amr_description.text import suggestion
+
+including.LOADERS.update(markup.LOADERS)
+_OF_LAUNCH_ROS = (NAMESPACE, PARAMETERS, REMAPPINGS)
+
+
+class LaunchFile:
+    """A file with ``generate_launch_description``, or one of XML or YAML."""
+
+    def __init__(self, path: Path) -> None:
+        """Read nothing yet."""
+        self._path = path.absolute()
+
+    def show_arguments(self) -> str:
+        """Return what ``--show-args`` prints. Raises BringupError."""
+        with understood():
+            return show_arguments(declared_arguments(read(self._path)))
+
+    def stack(self, given: Mapping[str, str]) -> Stack:
+        """Return what is started with these arguments, by name. Raises BringupError."""
+        context = LaunchContext()
+        with understood():
+            try:
+                source = LaunchDescriptionSource(str(self._path))
+                pairs = list(given.items())
+                include = IncludeLaunchDescription(source, launch_arguments=pairs)
+                description = LaunchDescription([include])
+                include.where = source.where = description.where = ''
+                stack = translated(description, context)
+                declared = declared_arguments(source.get_launch_description(context))
+            except AmrError:
+                raise
+            except RecursionError:
+                raise BringupError(f"'{self._path}' includes itself") from None
+            except Exception as error:
+                text = user_errors.describe(error)
+                raise BringupError(f"'{self._path}' failed: {text}") from error
+        known = {each.name for each in declared} | context.read
+        unknown = [name for name in given if name not in known]
+        notes: list[tuple[Level, str]] = [
+            (
+                'WARNING',
+                f"nothing in it reads the argument '{name}'{suggestion(name, sorted(known))}",
+            )
+            for name in unknown
+        ]
+        return replace(stack, notes=[*notes, *stack.notes], patience=None)

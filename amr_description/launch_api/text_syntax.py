@@ -1,0 +1,138 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``$(var name)`` and the like, in launch files of XML and YAML, and in parameter files."""
+
+from collections.abc import Callable, Sequence
+import re
+from typing import Any
+
+from amr_description.launch_api import logic, substitutions
+from amr_description.launch_api.locations import refusal
+from amr_description.launch_api.substitutions import Substitution, TextSubstitution
+from amr_description.text import did_you_mean
+
+type Argument = list[Substitution]
+
+
+def _with_default(make: Callable[..., Substitution], name: str) -> Callable[..., Substitution]:
+    """Return a function whose second argument is the default."""
+
+    def made(first: Argument, second: Argument | None = None) -> Substitution:
+        return make(first) if second is None else make(first, **{name: second})
+
+    return made
+
+
+def _var(name: Argument, default: Argument | None = None) -> Substitution:
+    return substitutions.LaunchConfiguration(name, default=default)
+
+
+def _command(command: Argument, on_stderr: Argument | None = None) -> Substitution:
+    return substitutions.Command(command, on_stderr=on_stderr or 'fail')
+
+
+_MAKERS: dict[str, Callable[..., Substitution]] = {
+    'all': logic.AllSubstitution,
+    'and': logic.AndSubstitution,
+    'anon': substitutions.AnonName,
+    'any': logic.AnySubstitution,
+    'command': _command,
+    'dirname': substitutions.ThisLaunchFileDir,
+    'env': _with_default(substitutions.EnvironmentVariable, 'default_value'),
+    'equals': logic.EqualsSubstitution,
+    'eval': logic.PythonExpression,
+    'exec-in-pkg': substitutions.ExecutableInPackage,
+    'file-content': substitutions.FileContent,
+    'filename': substitutions.ThisLaunchFile,
+    'find-exec': lambda name: substitutions.FindExecutable(name=name),
+    'find-pkg-prefix': substitutions.FindPackagePrefix,
+    'find-pkg-share': substitutions.FindPackageShare,
+    'if': logic.IfElseSubstitution,
+    'launch_log_dir': substitutions.LaunchLogDir,
+    'log_dir': substitutions.LaunchLogDir,
+    'not': logic.NotSubstitution,
+    'not-equals': logic.NotEqualsSubstitution,
+    'or': logic.OrSubstitution,
+    'var': _var,
+}
+_NAME = re.compile(r'\s*([\w-]+)\s*')
+
+
+def parse_text(text: str, where: str = '') -> list[Substitution]:
+    """
+    Return a text with ``$(…)`` in it as substitutions.
+
+    Args:
+        text: the text.
+        where: its place, for messages.
+
+    Raises:
+        BringupError: a substitution is unknown or not closed.
+    """
+    found, end = _parts(text, 0, where, inner=False)
+    assert end == len(text)
+    return found or [TextSubstitution(text='')]
+
+
+def _parts(text: str, at: int, where: str, *, inner: bool) -> tuple[list[Substitution], int]:
+    """Return the parts from ``at`` to the end or, within ``$(…)``, to the end of the argument."""
+    found: list[Substitution] = []
+    plain, quote = '', ''
+    while at < len(text):
+        char = text[at]
+        if text.startswith('$(', at):
+            if plain:
+                found.append(TextSubstitution(text=plain))
+            one, at = _substitution(text, at + 2, where)
+            found.append(one)
+            plain = ''
+            continue
+        if text.startswith('\\$', at) or (char == '\\' and inner and at + 1 < len(text)):
+            plain += text[at + 1]
+            at += 2
+            continue
+        if inner and char in '\'"' and (not quote or char == quote):
+            quote = '' if quote else char
+        elif inner and not quote and (char.isspace() or char == ')'):
+            break
+        else:
+            plain += char
+        at += 1
+    if plain:
+        found.append(TextSubstitution(text=plain))
+    return found, at
+
+
+def _substitution(text: str, at: int, where: str) -> tuple[Substitution, int]:
+    match = _NAME.match(text, at)
+    name = match[1] if match else ''
+    if name not in _MAKERS:
+        raise refusal(
+            f'$({name or "…"}) is not understood here{did_you_mean(name, list(_MAKERS))}; '
+            f'understood are {", ".join(_MAKERS)}',
+            where,
+        )
+    at = match.end() if match else at
+    arguments: list[Argument] = []
+    while at < len(text) and text[at] != ')':
+        if text[at].isspace():
+            at += 1
+            continue
+        argument, at = _parts(text, at, where, inner=True)
+        arguments.append(argument)
+    if at >= len(text):
+        raise refusal(f"'{text}': $({name} is not closed", where)
+    return _made(name, arguments, where), at + 1
+
+
+def _made(name: str, arguments: Sequence[Argument], where: str) -> Substitution:
+    given: Sequence[Any] = arguments
+    if name in ('eval', 'command') and len(arguments) > 1:  # words without quotes are one
+        blank = [TextSubstitution(text=' ')]
+        given = [[each for one in arguments for each in (*one, *blank)][:-1]]
+    try:
+        made = _MAKERS[name](*given)
+    except TypeError:
+        raise refusal(f'$({name} …): it does not take {len(given)} arguments', where) from None
+    made.where = where or made.where
+    return made

@@ -1,0 +1,373 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Actions of a launch file -> a stack: its nodes, when each of them starts, and its handlers.
+
+A description is visited once, from top to bottom, as launch does; nothing is started meanwhile.
+The actions of an event handler are visited then, too, with the launch configurations that hold
+where the handler stands: nodes in it wait for its event.
+
+As in launch, a failure of a process stops nothing, waits have no timeout, and a node with
+``on_exit=Shutdown()`` ends the launch when it ends: with its exit code.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+import math
+import os
+from pathlib import Path
+import shlex
+import shutil
+from typing import Any
+
+from amr_description.ament_index import executable_of, OWN_PACKAGE, path_of
+from amr_description.bringup import handlers
+from amr_description.bringup.conditions import (
+    after,
+    all_of,
+    Condition,
+    exited_cleanly,
+    is_end_of_node,
+    NodeRef,
+    settled,
+    walk,
+)
+from amr_description.bringup.description import Node as StackNode, Respawn, Stack
+from amr_description.bringup.handlers import EventHandler, Level
+from amr_description.errors import AmrError, BringupError
+from amr_description.launch_api.actions import (
+    EmitEvent,
+    Log,
+    RegisterEventHandler,
+    TimerAction,
+)
+from amr_description.launch_api.context import LaunchContext, NAMESPACE, PARAMETERS, REMAPPINGS
+from amr_description.launch_api.counterparts import (
+    arguments_as_ours,
+    Counterpart,
+    counterpart_of,
+    require_package,
+)
+from amr_description.launch_api.descriptions import Action, LaunchDescription
+from amr_description.launch_api.events import OnProcessExit
+from amr_description.launch_api.gazebo_files import Page, simulator, world_of
+from amr_description.launch_api.handling import Handling, Listeners, Registered, Started
+from amr_description.launch_api.locations import at, refusal
+from amr_description.launch_api.parameters import evaluated
+from amr_description.launch_api.processes import ExecuteProcess, Node
+from amr_description.launch_api.ros_actions import joined_namespace
+from amr_description.launch_api.substitutions import perform_substitutions, text_of
+from amr_description.stand_ins import INSTEAD_OF_PACKAGES
+
+_STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner', 'ros2')
+"""What ends by itself soon, and is waited for."""
+_LEVELS: Mapping[str, Level] = {
+    'DEBUG': 'INFO', 'INFO': 'INFO', 'WARNING': 'WARNING', 'WARN': 'WARNING', 'ERROR': 'ERROR',
+    'CRITICAL': 'ERROR', 'FATAL': 'ERROR',
+}  # fmt: skip
+_PREFIX = 'launch-prefix'
+
+
+def translated(description: LaunchDescription, context: LaunchContext) -> Stack:
+    """Return the stack of a description. Raises BringupError."""
+    translation = Translation(context)
+    translation.visit([description])
+    translation.handle()
+    return translation.stack()
+
+
+@dataclass
+class _Replaced:
+    """What was taken from here, to be said once."""
+
+    names: list[str] = field(default_factory=list)
+    pages: list[str] = field(default_factory=list)
+    left_out: dict[str, str] = field(default_factory=dict)
+
+    def notes(self) -> Iterator[tuple[Level, str]]:
+        if self.names:
+            names = ', '.join(dict.fromkeys(self.names))
+            yield 'INFO', f'not installed, so those of {OWN_PACKAGE} are started: {names}'
+        if self.pages:
+            names = ', '.join(dict.fromkeys(self.pages))
+            yield 'INFO', f'in place of {names}: the page whose address the viewer prints'
+        for name, why in self.left_out.items():
+            yield 'INFO', f'{name} is left out: {why}'
+
+
+class Translation:
+    """What was visited so far."""
+
+    def __init__(self, context: LaunchContext) -> None:
+        """Begin with nothing."""
+        self.context = context
+        self.handling = Handling(self)
+        self.nodes: list[StackNode] = []
+        self.event_handlers: list[EventHandler] = []
+        self.notes: list[tuple[Level, str]] = []
+        self.started: dict[Action, Started] = {}
+        """What has become of each action that starts a process or a timer."""
+        self.when: Condition | None = None
+        """When the actions that are visited now are to be done; None: at once."""
+        self._replaced = _Replaced()
+
+    def visit(self, entities: Iterable[object] | None) -> None:
+        """Visit entities, in order."""
+        for entity in entities or ():
+            if isinstance(entity, list | tuple):
+                self.visit(entity)
+                continue
+            try:
+                self._visit(entity)
+            except BringupError as error:
+                raise at(error, getattr(entity, 'where', '')) from None
+            except AmrError as error:
+                raise refusal(str(error), getattr(entity, 'where', '')) from error
+
+    def handle(self) -> None:
+        """Visit what event handlers do."""
+        self.handling.resolve()
+
+    @contextmanager
+    def later(self, when: Condition | None, context: LaunchContext) -> Iterator[None]:
+        """Have what is visited within the context be done at that time."""
+        before = self.when, self.context
+        self.when, self.context = when, context
+        try:
+            yield
+        finally:
+            self.when, self.context = before
+
+    def also_when(self, condition: Condition) -> Condition:
+        """Return when both what is visited now is to be done, and a condition holds."""
+        return condition if self.when is None else all_of(self.when, condition)
+
+    def stack(self) -> Stack:
+        """Return all of it. Raises BringupError."""
+        if not self.nodes and not self._replaced.pages:
+            raise BringupError('nothing would be started: the launch file starts no process')
+        ready = self._readiness()
+        page = [StackNode('viewer', required=False, start_when=ready, timeout=math.inf)]
+        return Stack(
+            [*self.nodes, *(page if self._replaced.pages else ())],
+            ready_when=ready,
+            timeout=math.inf,
+            event_handlers=self.event_handlers,
+            on_shutdown=self.handling.on_shutdown(),
+            notes=[*self.notes, *self._replaced.notes()],
+        )
+
+    def _readiness(self) -> Condition | None:
+        """Return when all is up: all was started that will be soon, and all steps are over."""
+        soon = [node for node in self.nodes if _starts_soon(node)]
+        steps = [exited_cleanly(node) for node in soon if _is_step(node)]
+        later = [settled(node) for node in soon if node.start_when and not _is_step(node)]
+        found = [*later, *steps] or [settled(node) for node in soon]
+        return all_of(*found) if found else None
+
+    def _visit(self, entity: object) -> None:
+        if isinstance(entity, LaunchDescription):
+            self.visit(entity.entities)
+            return
+        if not isinstance(entity, Action):
+            raise refusal(f'{entity!r} is no action', '')
+        if entity.condition is not None and not entity.condition.evaluate(self.context):
+            return
+        match entity:
+            case ExecuteProcess():
+                self._start(entity)
+            case TimerAction():
+                self._delay(entity)
+            case RegisterEventHandler():
+                registered = Registered(entity.event_handler, self.context.copy(), self.when)
+                self.handling.add(registered)
+            case Log():
+                self._log(entity)
+            case EmitEvent():
+                self._shut_down(entity)
+            case Page():
+                self._replaced.pages.append('the window of Gazebo')
+            case _:
+                before = dict(os.environ)
+                more = entity.execute(self.context)
+                changed = {k: v for k, v in os.environ.items() if before.get(k) != v}
+                self.context.environment.update(changed)  # by a file, or a function of it
+                self.visit(more)
+
+    def _delay(self, timer: TimerAction) -> None:
+        when = after(timer.seconds(self.context), self.when)
+        self.started[timer] = Started(None, when)
+        with self.later(when, self.context.copy()):
+            self.visit(timer.actions)
+
+    def _log(self, action: Log) -> None:
+        level = perform_substitutions(self.context, action.level).upper()
+        text = perform_substitutions(self.context, action.msg)
+        line = handlers.Log(text, _LEVELS.get(level, 'INFO'))
+        if self.when is None:
+            self.notes.append((line.level, line.text))
+            return
+        self.event_handlers.append(EventHandler(self.when, lambda _: line, f"log '{text}'"))
+
+    def _shut_down(self, action: EmitEvent) -> None:
+        reason = action.event.text(self.context)
+        stop = handlers.Shutdown(reason)
+        when = after(0.0) if self.when is None else self.when
+        self.event_handlers.append(EventHandler(when, lambda _: stop, f"shut down: '{reason}'"))
+
+    def _start(self, action: ExecuteProcess) -> None:
+        if action in self.started:
+            raise refusal('the same action stands twice; make a second one', '')
+        if isinstance(action, Node):
+            self._start_node(action)
+        else:
+            self._start_command(action)
+
+    def _start_node(self, action: Node) -> None:
+        context = self.context
+        if action.package is None:
+            raise refusal('Node without package= is not understood here', '')
+        package, executable = (text_of(context, t) for t in (action.package, action.executable))
+        other = counterpart_of(package, executable)
+        if other is None:
+            require_package(package)
+            executable_of(package, executable)
+        else:
+            self._note_counterpart(package, executable, other)
+        if other is not None and not other.executable:
+            self.started[action] = Started(None, self.when)
+            return
+        arguments = [text_of(context, each) for each in action.arguments]
+        if other is not None:
+            arguments = [*arguments_as_ours(executable, arguments), *other.words]
+            package, executable = OWN_PACKAGE, other.executable
+        if action.ros_arguments:
+            arguments += ['--ros-args', *(text_of(context, each) for each in action.ros_arguments)]
+        given = context.launch_configurations
+        own = '' if action.namespace is None else text_of(context, action.namespace)
+        outer = str(given.get(NAMESPACE, ''))
+        parameters = [*given.get(PARAMETERS, ()), *evaluated(context, action.parameters, '')]
+        for each in parameters:
+            if isinstance(each, Path):
+                path_of(str(each))
+        remappings = [(text_of(context, a), text_of(context, b)) for a, b in action.remappings]
+        node = StackNode(
+            executable,
+            package=package,
+            name=text_of(context, action.name).lstrip('/') or None if action.name else None,
+            namespace=joined_namespace(outer, own) or None,
+            parameters=parameters,
+            remappings=[*given.get(REMAPPINGS, ()), *remappings],
+            arguments=arguments,
+            **self._common(action),
+        )
+        self._add(action, node)
+
+    def _note_counterpart(self, package: str, executable: str, other: Counterpart) -> None:
+        name = executable if package == executable else f'{package} {executable}'
+        if other.why:
+            self._replaced.left_out[name] = other.why
+        elif other.has_page:
+            self._replaced.pages.append(name)
+        else:
+            ours = '' if executable == other.executable else f' ({other.executable})'
+            self._replaced.names.append(f'{name}{ours}')
+
+    def _start_command(self, action: ExecuteProcess) -> None:
+        context = self.context
+        shell = action.truth(context, action.shell, 'shell')
+        words = action.words(context)
+        if not words or not words[0]:
+            raise refusal('ExecuteProcess(cmd=[]): it takes the words of a command', '')
+        if self._is_gazebo(words if not shell else shlex.split(' '.join(words)), action):
+            return
+        label = os.path.basename(words[0].split()[0])
+        command = ['/bin/sh', '-c', ' '.join(words)] if shell else words
+        folder = None if action.cwd is None else text_of(context, action.cwd)
+        if folder is not None and not Path(folder).is_dir():
+            raise refusal(f"cwd='{folder}': there is no such folder", '')
+        node = StackNode(label, command=command, folder=folder, **self._common(action))
+        self._add(action, node)
+
+    def _is_gazebo(self, words: list[str], action: ExecuteProcess) -> bool:
+        """Return whether it is a command of Gazebo, in whose place the simulator was started."""
+        program, *rest = words
+        name = os.path.basename(program)
+        if name not in ('gz', 'ign', 'gazebo', 'gzserver', 'gzclient') or _is_program(name):
+            return False
+        if name in ('gz', 'ign'):
+            if rest[:1] not in (['sim'], ['gazebo']):
+                raise refusal(f"there is no command '{name}': {INSTEAD_OF_PACKAGES['ros_gz_sim']}")
+            world = world_of(rest[1:])
+        else:
+            world = world_of(['-r', *(['-g'] if name == 'gzclient' else []), *rest])
+        before = len(self.nodes)
+        self.visit(simulator(world))
+        made = self.nodes[before:]
+        self._replaced.names.append(f'{name} (mujoco_sim)')
+        self.started[action] = Started(made[0] if made else None, self.when)
+        return True
+
+    def _common(self, action: ExecuteProcess) -> dict[str, Any]:
+        """Return the fields that a stack's node has of any process."""
+        context = self.context
+        environment = context.changes_of_environment()
+        if action.env is not None:
+            environment = dict.fromkeys(os.environ) | _texts(context, action.env)
+        prefix = action.prefix
+        if prefix is None:
+            prefix = str(context.launch_configurations.get(_PREFIX, ''))
+        respawn = None
+        if action.respawns(context):
+            limit = action.respawn_max_retries
+            respawn = Respawn(
+                delay=max(action.delay(context), 0.01),
+                backoff=1.0,
+                limit=None if limit < 0 else max(limit, 1),
+                steady=math.inf,
+            )
+        ends_all = _is_shutdown(action.on_exit)
+        return {
+            'environment': environment | _texts(context, action.additional_env),
+            'prefix': text_of(context, prefix),
+            'start_when': self.when,
+            'timeout': math.inf,
+            'required': ends_all,
+            'on_exit': 'shutdown' if ends_all else 'continue',
+            'respawn': respawn,
+            'on_output': Listeners(),
+        }
+
+    def _add(self, action: ExecuteProcess, node: StackNode) -> None:
+        self.nodes.append(node)
+        self.started[action] = Started(node, self.when)
+        if action.on_exit is not None and not _is_shutdown(action.on_exit):
+            handler = OnProcessExit(target_action=action, on_exit=action.on_exit)
+            handler.where = action.where
+            self.handling.add(Registered(handler, self.context.copy(), None))
+
+
+def _texts(context: LaunchContext, table: Mapping[Any, Any]) -> dict[str, str | None]:
+    return {text_of(context, key): text_of(context, value) for key, value in table.items()}
+
+
+def _is_shutdown(on_exit: object) -> bool:
+    """Return whether it is ``Shutdown()``, alone or in a list."""
+    if isinstance(on_exit, list | tuple) and len(on_exit) == 1:
+        return _is_shutdown(on_exit[0])
+    return isinstance(on_exit, EmitEvent) and on_exit.condition is None
+
+
+def _is_step(node: NodeRef) -> bool:
+    return node.executable in _STEPS
+
+
+def _starts_soon(node: StackNode) -> bool:
+    """Return whether it starts at once, after a time, or after steps."""
+    ends = [part for part in walk(node.start_when) if is_end_of_node(part)]
+    return all(_is_step(other) for part in ends for other in part.nodes)
+
+
+def _is_program(name: str) -> bool:
+    return shutil.which(name) is not None
