@@ -1,0 +1,46 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""docs/launch_files.md: its two files, written, and its lines, typed."""
+
+import inspect
+import re
+
+import pytest
+from support import shells
+from support.doc_pages import Page
+
+from amr_description.launch_api.modules import UNDERSTOOD
+
+PAGE = Page('launch_files.md')
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / 'pair.launch.py').write_text(PAGE.blocks('python')[0])
+    (tmp_path / 'listener.launch.xml').write_text(PAGE.blocks('xml')[0])
+    return tmp_path
+
+
+def test_its_lines_do_what_it_says(folder):
+    with shells.newcomer(f'source scripts/activate\n{PAGE.text}', folder, folder=folder) as shell:
+        assert "        Their namespace.\n        (default: 'left')" in shell.run(
+            'ros2 launch pair.launch.py --show'
+        )
+        printed = shell.run('ros2 launch pair.launch.py --print')
+        assert 'talker-1: at once' in printed
+        assert 'listener' not in printed
+        assert '-r __ns:=/right' in shell.run('ros2 launch listener.launch.xml')
+        shell.start('ros2 launch pair.launch.py side')
+        shell.see(r'demo_nodes_py talker, demo_nodes_py listener')
+        shell.see(r'\[launch.user\]: talks on the right')
+        shell.see(r'\[right.listener\]: I heard: "Hello World: \d+"')
+        shell.interrupt()
+
+
+def test_the_names_in_its_table_are_understood():
+    table = PAGE.text.partition('## What is understood')[2].partition('Whatever else')[0]
+    known = {name for names in UNDERSTOOD.values() for name in names}
+    processes = UNDERSTOOD['launch.actions']['ExecuteProcess']
+    known |= set(inspect.signature(processes.__init__).parameters)
+    named = {re.sub(r'\(.*', '', each) for each in re.findall(r'`([^`]+)`', table)}
+    assert named <= known
