@@ -7,7 +7,7 @@ Many packages of descriptions, meshes and launch files say ``find_package(urdf R
 nothing of it. They need no C++ to be installed.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 import os
 from pathlib import Path
 import re
@@ -29,10 +29,21 @@ _VERSION = 'set(PACKAGE_VERSION_COMPATIBLE TRUE)\n'
 
 def compiles_nothing(source: Path) -> bool:
     """Return whether a package only installs files, as far as its rules tell."""
-    rules = [*source.rglob('CMakeLists.txt'), *source.rglob('*.cmake')]
     return not any(
-        _USE.search(file.read_text(encoding='utf-8', errors='replace')) for file in rules
+        _USE.search(file.read_text(encoding='utf-8', errors='replace')) for file in _rules(source)
     )
+
+
+def _rules(source: Path) -> Iterator[Path]:
+    """Yield the rules of a package; what a build left in its folder is none of it."""
+    for folder, subfolders, names in os.walk(source):
+        if {'COLCON_IGNORE', 'CMakeCache.txt'} & {*names}:
+            subfolders.clear()
+            continue
+        subfolders[:] = [name for name in subfolders if not name.startswith('.')]
+        for name in names:
+            if name == 'CMakeLists.txt' or name.endswith('.cmake'):
+                yield Path(folder, name)
 
 
 def stand_in(name: str, folder: Path) -> str | None:

@@ -85,6 +85,7 @@ def host(tmp_path_factory):
         ('ros2 control set_controller_state x in', ['inactive']),
         ('ros2 run demo_nodes_py t', ['talker']),
         ('ros2 run py_p', ['py_pubsub']),
+        ('ros2 pkg create --license MI', ['MIT', 'MIT-0']),
         ('ros2 run no_such_package ', []),
         ('ros2 pkg prefix std_', ['std_msgs', 'std_srvs']),
         ('ros2 interface show std_msgs/msg/Str', ['std_msgs/msg/String']),

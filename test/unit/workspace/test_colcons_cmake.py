@@ -152,6 +152,9 @@ def test_files_are_installed_without_a_compiler(cmake, package, tmp_path):
 )
 def test_what_compiles_is_known(tmp_path, rules, expected):
     (tmp_path / 'CMakeLists.txt').write_text(rules)
+    for place in ('build/CMakeCache.txt', 'build/x.cmake', '.git/y.cmake'):
+        (tmp_path / place).parent.mkdir(exist_ok=True)
+        (tmp_path / place).write_text('add_library(of a build)')
     assert compiles_nothing(tmp_path) == expected
 
 
