@@ -37,12 +37,17 @@ LONGEST = 120.0
 """s for a goal; only a robot that is stuck takes as long."""
 
 
-@pytest.fixture
-def sim(tmp_path):
-    with Simulation(
-        feeling_robot(tmp_path), ROOT / 'config' / 'controllers.yaml', world='warehouse'
-    ) as sim:
+@pytest.fixture(scope='module')
+def simulation(tmp_path_factory):
+    robot = feeling_robot(tmp_path_factory.mktemp('robot'))
+    with Simulation(robot, ROOT / 'config' / 'controllers.yaml', world='warehouse') as sim:
         yield sim
+
+
+@pytest.fixture
+def sim(simulation):
+    simulation.reset()
+    return simulation
 
 
 def pose_of(sim):

@@ -57,7 +57,7 @@ def errors(found: Pose, true: Pose) -> tuple[float, float]:
     return hypot(found.x - true.x, found.y - true.y), abs(degrees(wrapped(found.yaw - true.yaw)))
 
 
-@pytest.mark.parametrize('scans', [100, pytest.param(500, marks=pytest.mark.long)])
+@pytest.mark.parametrize('scans', [40, pytest.param(500, marks=pytest.mark.long)])
 def test_the_pose_by_scans_is_within_3_cm_and_1_degree_of_the_truth(sim, scans):
     tracker = ScanTracker(ScanMatcher(map_of_world('warehouse')), MotionNoise())
     sim.run(0.1)
@@ -168,11 +168,12 @@ def test_scan_localizer_is_within_3_cm_and_1_degree_by_its_topics(sim):
         assert worst[3] < STRAIGHT
 
 
-def test_truth_localizer_is_right_while_the_robot_drives_and_turns(sim):
+@pytest.mark.parametrize('scans', [40, pytest.param(200, marks=pytest.mark.long)])
+def test_truth_localizer_is_right_while_the_robot_drives_and_turns(sim, scans):
     with ExitStack() as stack:
         listener = begin(stack, sim, 'truth_localizer')
         found = []
-        for _ in islice(tour(sim), 120):
+        for _ in islice(tour(sim), scans):
             stamp = last_scan(sim)
             truth = listener.truth_at(stamp)
             assert listener.pose_at(stamp) == pytest.approx(truth, abs=1e-6)

@@ -23,7 +23,7 @@ from amr_description.tf2_ros.listener import TransformListener
 URDF = ROOT / 'urdf' / 'amr_sensors.urdf.xacro'
 PERIOD = 100_000_000
 """ns between scans."""
-PIECES = 100
+PIECES, MANY_PIECES = 40, 200
 """Tenths of a second."""
 
 pytest_plugins = ['amr_description.testing.fixtures']
@@ -39,11 +39,11 @@ def log(kept, simulation):
     """The log of one drive, for all tests."""
     if not kept:
         sim = simulation(URDF, world='warehouse')
-        kept['log'] = recorded(sim)
+        kept['log'] = recorded(sim, PIECES)
     return deepcopy(kept['log'])
 
 
-def recorded(sim):
+def recorded(sim, pieces):
     """Drive with the truth as localisation; in lock-step, so that nothing depends on the load."""
     log, ros = NavigationLog(), ['--ros-args', '-p', 'use_sim_time:=true']
     with ExitStack() as stack:
@@ -67,7 +67,7 @@ def recorded(sim):
         sim.wait(is_heard, 'all topics')
         sim.run(0.03)  # a cycle of 10 ms after that of odometry, which follows a scan's
         start = round(sim.time * 1e9)
-        for _ in islice(tour(sim), PIECES):
+        for _ in islice(tour(sim), pieces):
             end = Time(seconds=round(sim.time - 0.03, 1))
             sim.wait(
                 lambda end=end: buffer.can_transform('map', 'lidar_link', end),
@@ -80,9 +80,12 @@ def recorded(sim):
                 messages[:] = [
                     each for each in messages if start < stamp_of(each) <= end.nanoseconds
                 ]
-            return len(log.scans) >= PIECES - 1 and log.clock[-1] >= stamp_of(log.scans[-1])
+            if len(log.scans) < pieces - 1 or log.clock[-1] < (last := stamp_of(log.scans[-1])):
+                return False
+            told = {each.child for each in log.transforms if each.time >= last}
+            return {'odom', 'base_footprint'} <= told
 
-        sim.wait(has_all, f'{PIECES - 1} scans')
+        sim.wait(has_all, f'{pieces - 1} scans, and the transforms of the last one')
     return log
 
 
@@ -91,8 +94,17 @@ def stamp_of(message):
 
 
 def test_a_drive_has_no_faults(log):
+    has_no_faults(log, PIECES)
+
+
+@pytest.mark.long
+def test_a_longer_drive_has_no_faults(simulation):
+    has_no_faults(recorded(simulation(URDF, world='warehouse'), MANY_PIECES), MANY_PIECES)
+
+
+def has_no_faults(log, pieces):
     assert list(log.faults(PERIOD)) == []
-    assert len(log.scans) >= PIECES - 1
+    assert len(log.scans) >= pieces - 1
     # Of the five of a step that come at once, a subscriber of depth 1 may hear the last one only.
     assert len(log.odometry) >= len(log.scans)
     assert len(log.transforms) > 10 * len(log.scans)

@@ -1,7 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stack ``navigation`` while it runs, and the parameter files checked against it."""
+"""
+The stack ``navigation`` while it runs: the parameter files, and ``check_navigation``, against it.
+"""
 
+import json
 import math
 import signal
 from types import SimpleNamespace
@@ -18,11 +21,13 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Bool, String
 from support.paths import ROOT
 from support.ros_processes import PATIENCE
+from support.running_programs import Program
 from tf2_ros.buffer import Buffer
 from tf2_ros.transform_listener import TransformListener
 
 from amr_description.model.footprint import footprint
 from amr_description.model.urdf import parse
+from amr_description.navigation.contract.rules import RULES
 from amr_description.parameter_files import dotted, flatten, read_parameter_file, sections
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.qos import LATCHED
@@ -43,6 +48,14 @@ WITHIN_NAV2 = ('local_costmap/', 'global_costmap/', '/local_costmap/', 'collisio
 """Topics that nodes of Nav2 publish for each other."""
 TYPES = {'scan': 'sensor_msgs/msg/LaserScan', 'odom': 'nav_msgs/msg/Odometry',
          'map': 'nav_msgs/msg/OccupancyGrid'}  # fmt: skip
+
+MACHINE = {'time.real_time_factor', 'tf.at_scans', 'scan.age'}
+"""It is what the machine gives."""
+LONG = ('--duration', '120')
+"""On a busy machine; it ends as soon as all is known."""
+
+TELEOP = ('--ros-args', '-r', 'cmd_vel:=/cmd_vel_teleop')
+"""An input of twist_mux on which nobody publishes; on /cmd_vel the navigator does."""
 
 
 class Operator(Node):
@@ -104,7 +117,8 @@ def stack(tmp_path_factory):
         rclpy.init(args=[])
         operator = Operator()
         operator.set_parameters([rclpy.Parameter('use_sim_time', value=True)])
-        yield SimpleNamespace(operator=operator, up=up)
+        [start] = operator.wait_for('ground_truth/odom')
+        yield SimpleNamespace(operator=operator, up=up, start=start.pose.pose.position)
         operator.destroy_node()
         rclpy.try_shutdown()
         assert up.end(signal.SIGINT) == 0
@@ -196,10 +210,8 @@ def test_the_footprint_is_the_outline_of_the_collisions(stack):
 
 
 def test_the_initial_pose_is_where_the_robot_is_in_the_map(stack):
-    [truth] = stack.operator.wait_for('ground_truth/odom')
     amcl = NODES['/amcl']
-    position = truth.pose.pose.position
-    assert math.hypot(position.x - amcl['initial_pose.x'], position.y) < 0.02
+    assert math.hypot(stack.start.x - amcl['initial_pose.x'], stack.start.y) < 0.02
     assert (amcl['initial_pose.y'], amcl['initial_pose.yaw']) == (0.0, 0.0)
 
 
@@ -242,6 +254,8 @@ def test_a_person_outranks_the_planner_and_stop_outranks_both(stack):
     operator.lock.publish(Bool(data=False))
     operator.until(lambda: operator.twist().linear.x < -0.15 or both())
     operator.until(lambda: operator.rests() or person.publish(Twist()))
+    for publisher in (planner, person):
+        operator.destroy_publisher(publisher)
 
 
 def test_a_goal_is_driven_to_by_way_of_the_mux(stack):
@@ -261,3 +275,62 @@ def test_a_goal_is_driven_to_by_way_of_the_mux(stack):
         return math.hypot(position.x - 1.5, position.y - 0.6)
 
     operator.until(lambda: distance() < 0.1 and operator.rests())
+
+
+def check(*options):
+    return Program.module('check_navigation', *options)
+
+
+def report(*options):
+    """Its exit code is 0, or 1 as only the machine was too slow."""
+    with check('--json', *LONG, *options) as program:
+        code = program.end()
+        text = program.output
+    data = json.loads(text[text.index('{\n') : text.rindex('}') + 1])
+    found = {each['name']: each for each in data['findings'] if each['name'] not in MACHINE}
+    assert data['holds'] == (code == 0)
+    assert len(data['findings']) == len(RULES)
+    return found
+
+
+def by_verdict(found, verdict):
+    return {name: each['found'] for name, each in found.items() if each['verdict'] == verdict}
+
+
+def test_every_demand_holds_for_the_stack_navigation(stack):
+    found = report('--drive', *TELEOP)
+    assert by_verdict(found, 'failed') == {}
+    assert {*by_verdict(found, 'not checked')} == {'slam.max_laser_range', 'costmap.footprint'}
+    assert found['cmd_vel.listener']['found'] == '/twist_mux on /cmd_vel_teleop'
+    assert 'reach 0.345 m from base_link' in found['costmap.footprint']['found']
+
+
+def test_all_but_the_command_topic_holds_for_the_robot_itself(stack):
+    """Of the simulation alone: its wheels take stamped commands, elsewhere than Nav2 publishes."""
+    with check(*LONG, '--ros-args', '-r', 'cmd_vel:=/nowhere') as program:
+        assert program.end() == 1
+        lines = program.output.split('\n')
+    failed = [e for e in lines if e.startswith('FAILED') and e.split()[1] not in MACHINE]
+    assert len(failed) == 1, failed
+    assert 'nobody subscribes to /nowhere' in failed[0]
+    assert '/diff_drive_controller on /diff_drive_controller/cmd_vel' in failed[0]
+    (last,) = [e for e in lines if ' demands in ' in e]
+    assert last.startswith(f'{len(RULES)} demands in ')
+
+
+def test_a_namespace_without_a_robot(stack):
+    with check('--duration', '1', '--ros-args', '-r', '__ns:=/nobody') as program:
+        assert program.end() == 1
+        assert 'nobody publishes /nobody/scan' in program.output
+        assert 'nothing came on /nobody/odom, /nobody/scan' in program.output
+
+
+def test_it_does_not_fight_over_the_robot(stack):
+    rival = Node('rival')  # it answers no services, as nobody spins it
+    rival.create_publisher(Twist, '/cmd_vel_teleop', 1)
+    with check(*LONG, '--drive', *TELEOP) as program:
+        assert program.end() == 2
+        assert 'FATAL' in program.output
+        assert '--drive: /rival publishes commands on /cmd_vel_teleop' in program.output
+        assert 'passed' not in program.output
+    rival.destroy_node()

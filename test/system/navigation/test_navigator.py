@@ -263,6 +263,7 @@ def test_a_new_goal_ends_the_one_before(operator):
     assert operator.pose.distance(near) < 0.1
 
 
+@pytest.mark.long  # short: the stack's own test drives to one
 def test_goal_pose_is_driven_to_as_from_rviz(operator):
     goal = Pose(operator.pose.x, -0.5, 0.0)
     operator.goal_pose.publish(stamped(goal))
