@@ -241,20 +241,20 @@ def test_services(filter_with):
     graph = filter_with(odom0='odom', odom0_config=WHEELS, disabled_at_startup=True)
     graph.said('Filter is disabled. To enable it call the /enable service')
     graph.ask(Empty, 'enable', Empty.Request())
-    graph.send('odom', odometry(vx=1.0), 100.0)
-    assert graph.filtered(100.0).pose.pose.position.x == 0.0
+    graph.send('odom', odometry(vx=1.0), 10.0)
+    assert graph.filtered(10.0).pose.pose.position.x == 0.0
     pose = PoseWithCovarianceStamped()
     pose.header.frame_id = 'odom'
     pose.pose.pose.position.x = 4.0
     pose.pose.pose.orientation.w = 1.0
-    graph.send('set_pose', pose, 100.0)
-    graph.send('odom', odometry(vx=1.0), 150.0)
+    graph.send('set_pose', pose, 10.0)
+    graph.send('odom', odometry(vx=1.0), 15.0)
     graph.until(lambda: graph.odometry[-1].pose.pose.position.x == 4.0, 'not set')
     assert graph.odometry[-1].twist.twist.linear.x == 0.0
     graph.ask(Empty, 'reset', Empty.Request())
     count = len(graph.odometry)
-    graph.send('odom', odometry(vx=2.0), 200.0)
-    found = graph.filtered(200.0)
+    graph.send('odom', odometry(vx=2.0), 20.0)
+    found = graph.filtered(20.0)
     # Anew: the first measurement is taken as it is.
     assert found.twist.twist.linear.x == 2.0
     assert len(graph.odometry) > count

@@ -31,7 +31,7 @@ CIRCLES = {
 }
 """m/s and rad/s: all different, of radii from 0.9 to 2.25 m, by turns to the left and right."""
 GONE = 'robot4'
-LENGTHS = [pytest.param(20, id='short'), pytest.param(60, id='minute', marks=pytest.mark.long)]
+LENGTHS = [pytest.param(12, id='short'), pytest.param(60, id='minute', marks=pytest.mark.long)]
 """s; GONE is away in the second third."""
 LOOK = 2.0
 """s between two looks at all robots, who turn by less than half a turn meanwhile."""

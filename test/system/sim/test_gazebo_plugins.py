@@ -18,9 +18,21 @@ from amr_description.model.frames import Transform
 from amr_description.testing.simulation import Simulation
 
 
+def test_it_goes_as_far_as_it_is_told():
+    drive = classic_drive('<publish_odom>true</publish_odom>')
+    with Simulation(cart(drive), pose=Transform((0.0, 0.0, 0.001))) as simulation:
+        simulation.drive(0.25, 0.0, seconds=2.0)
+        assert simulation.truth.x == pytest.approx(0.5, rel=0.02)
+        simulation.drive(0.0, math.pi / 4.0, seconds=1.0)
+        assert simulation.truth.yaw == pytest.approx(math.pi / 4.0, rel=0.02)
+        odometry = simulation.odometry
+        assert (odometry.x, odometry.yaw) == pytest.approx((0.5, math.pi / 4.0), rel=0.03)
+        assert simulation.joints['left_joint'].position > 0.0
+
+
 @pytest.fixture(scope='module')
 def simulation_process():
-    with simulator('real_time_factor:=0.0') as asked:
+    with simulator('real_time_factor:=5.0') as asked:
         yield asked
 
 
@@ -78,15 +90,3 @@ def test_namespaces_and_remapping_rules_of_classic(sim):
     spawn(sim, cart(drive), name='second', entity_namespace='r2')
     sim.wait(lambda: sim.node.count_publishers('/r2/wheel/odom'))
     sim.wait(lambda: sim.node.count_subscribers('/r2/cmd_vel'))
-
-
-def test_it_goes_as_far_as_it_is_told():
-    drive = classic_drive('<publish_odom>true</publish_odom>')
-    with Simulation(cart(drive), pose=Transform((0.0, 0.0, 0.001))) as simulation:
-        simulation.drive(0.25, 0.0, seconds=2.0)
-        assert simulation.truth.x == pytest.approx(0.5, rel=0.02)
-        simulation.drive(0.0, math.pi / 4.0, seconds=1.0)
-        assert simulation.truth.yaw == pytest.approx(math.pi / 4.0, rel=0.02)
-        odometry = simulation.odometry
-        assert (odometry.x, odometry.yaw) == pytest.approx((0.5, math.pi / 4.0), rel=0.03)
-        assert simulation.joints['left_joint'].position > 0.0

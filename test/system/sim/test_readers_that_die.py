@@ -17,7 +17,7 @@ from amr_description.bringup.guardian import remove_unused_segments
 from amr_description.ros.runtime import ros, spinning
 from benchmarks.churn import Churn, ClockObserver, LATE, simulator
 
-ROUNDS = 3
+ROUNDS = 2
 MOST_GROWTH = 20.0
 """MB."""
 STANDS = 1.5
