@@ -210,35 +210,42 @@ def simplified(hull: PlanarPoints, tolerance: float) -> PlanarPoints:
         hull: corners (n, 2), counter-clockwise, m.
         tolerance: m.
     """
-    corners = hull
-    while len(corners) > 4:
-        found = [_without_edge(corners, at) for at in range(len(corners))]
-        excess = [
-            math.inf if each is None else float(_outside(hull, each[None, :])[0]) for each in found
-        ]
-        at = int(np.argmin(excess))
-        corner = found[at]
-        if corner is None or excess[at] > tolerance:
+    corners = [*hull]
+    names = [*range(len(corners))]
+    next_name = len(corners)
+    # By the names of the four corners around an edge: but for a few they stay from one to the next.
+    known: dict[tuple[int, ...], tuple[float, Floats]] = {}
+    while (count := len(corners)) > 4:
+        found = []
+        for at in range(count):
+            around = [(at + step) % count for step in (-1, 0, 1, 2)]
+            key = tuple(names[place] for place in around)
+            if key not in known:
+                known[key] = _without_edge(hull, *(corners[place] for place in around))
+            found.append(known[key])
+        at = min(range(count), key=lambda place: found[place][0])
+        excess, corner = found[at]
+        if excess > tolerance:
             break
-        after = (at + 1) % len(corners)
-        corners = corners.copy()
-        corners[at] = corner
-        corners = np.delete(corners, after, axis=0)
-    return corners
+        corners[at], names[at] = corner, next_name
+        next_name += 1
+        after = (at + 1) % count
+        del corners[after], names[after]
+    return np.array(corners)
 
 
-def _without_edge(corners: PlanarPoints, at: int) -> Floats | None:
-    """Return where the edges before and after an edge meet; None: they do not, outside."""
-    count = len(corners)
-    before, start, end, after = (corners[(at + step) % count] for step in (-1, 0, 1, 2))
+def _without_edge(
+    hull: PlanarPoints, before: Floats, start: Floats, end: Floats, after: Floats
+) -> tuple[float, Floats]:
+    """Return where the edges beside an edge meet, and how far outside; inf: they do not meet."""
     along, on = start - before, after - end
     turn = along[0] * on[1] - along[1] * on[0]
     if turn <= _SMALLEST * math.hypot(*along) * math.hypot(*on):
-        return None
+        return math.inf, start
     gap = end - start
     share = (gap[0] * on[1] - gap[1] * on[0]) / turn
     found: Floats = start + share * along
-    return found
+    return float(_outside(hull, found[None, :])[0]), found
 
 
 def _outside(polygon: PlanarPoints, points: PlanarPoints) -> Floats:
