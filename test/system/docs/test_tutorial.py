@@ -9,15 +9,19 @@ Each terminal is a bash of its own on a pseudo-terminal, with an empty home. Wha
 stands beside it.
 """
 
-import math
 import re
 import time
 
+from nav_msgs.msg import Odometry
 import pytest
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
 from support import shells
 from support.doc_pages import Page
 from support.running_programs import PATIENCE
 from support.shells import CTRL_C, line_of, PROMPT, ROOT
+
+from amr_description.ros.runtime import ros, spinning
 
 README, PAGE, SIMULATOR, CONTROL = (
     Page(name).text for name in ('../README.md', 'tutorial.md', 'simulator.md', 'ros2_control.md')
@@ -141,14 +145,36 @@ def test_both_controllers_are_active(stack, terminal, book):
         ]
 
 
+@pytest.fixture(scope='module')
+def odometry(stack):
+    """The messages on /odom, of which a terminal shows one at a time."""
+    heard = []
+    with ros([]):
+        node = Node('watcher')
+        node.create_subscription(Odometry, '/odom', heard.append, 1)
+        with spinning(node, executor=SingleThreadedExecutor):
+            wait_until(lambda: heard)
+            yield heard
+
+
+def test_the_odometry_is_shown(odometry, terminal):
+    """By the line of the README."""
+    with terminal() as shell:
+        printed = shell.run('ros2 topic echo /odom --once')
+    assert 'frame_id: odom\n' in printed
+    assert 'child_frame_id: base_footprint\n' in printed
+    assert printed.endswith('---\n')
+    assert re.search(r'position:\n +x: \S+\n', printed)
+
+
 @BOOKS
-def test_one_command_moves_the_robot_forward(stack, terminal, book):
-    with terminal() as watcher, terminal(book) as shell:
-        before = x_at_rest(watcher)
+def test_one_command_moves_the_robot_forward(odometry, terminal, book):
+    with terminal(book) as shell:
+        before = x_at_rest(odometry)
         printed = shell.run('ros2 topic pub --once /diff_drive_controller/cmd_vel ')
         assert 'publisher: beginning loop\n' in printed
         assert 'publishing #1: geometry_msgs.msg.TwistStamped(header=' in printed
-        assert x_at_rest(watcher, moved_from=before) > before + 0.1
+        assert x_at_rest(odometry, moved_from=before) > before + 0.1
 
 
 @pytest.mark.parametrize(
@@ -156,14 +182,13 @@ def test_one_command_moves_the_robot_forward(stack, terminal, book):
     [(README, 'amr_description'), (TUTORIAL, 'teleop_twist_keyboard')],
     ids=['README', 'tutorial'],
 )
-def test_the_keyboard_drives(stack, terminal, book, package):
-    with terminal(book) as keyboard, terminal() as watcher:
-        before = x_at_rest(watcher)
+def test_the_keyboard_drives(odometry, terminal, book, package):
+    with terminal(book) as keyboard:
+        before = x_at_rest(odometry)
         keyboard.start(f'ros2 run {package} teleop_twist_keyboard ')
         keyboard.see(r'currently:\s+speed 0\.5\s+turn 1\.0')
         keyboard.press('i')
-        while odometry_x(watcher) < before + 0.1:
-            keyboard.press('i')
+        wait_until(lambda: x_of(odometry) > before + 0.1 or keyboard.press('i'))
         keyboard.press('k')
         keyboard.interrupt()
 
@@ -206,22 +231,21 @@ def test_a_controller_is_switched_off_and_on(stack, terminal):
         assert ' inactive' not in shell.run('ros2 control list_controllers')
 
 
-def x_at_rest(shell, moved_from=None):
-    """Where the robot stands on /odom, m; it rolls until the timeout of its last command."""
-    before, x = math.inf, odometry_x(shell)
+def x_at_rest(odometry, moved_from=None):
+    """Where the robot stands, m; it rolls until the timeout of its last command."""
+    if moved_from is not None:
+        wait_until(lambda: abs(x_of(odometry) - moved_from) > 1e-3)
+    wait_until(lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)
+    return x_of(odometry)
+
+
+def x_of(odometry):
+    """The robot's last x, m."""
+    return odometry[-1].pose.pose.position.x
+
+
+def wait_until(condition):
     deadline = time.monotonic() + PATIENCE
-    while moved_from is not None and abs(x - moved_from) < 1e-3:  # it has not begun to move
+    while not condition():
         assert time.monotonic() < deadline, 'waited in vain'
-        x = odometry_x(shell)
-    while abs(x - before) > 1e-3:
-        before, x = x, odometry_x(shell)
-    return x
-
-
-def odometry_x(shell):
-    """The robot's x on /odom, m, by the line of the README."""
-    printed = shell.run('ros2 topic echo /odom --once')
-    assert 'frame_id: odom\n' in printed
-    assert 'child_frame_id: base_footprint\n' in printed
-    assert printed.endswith('---\n')
-    return float(re.search(r'position:\n +x: (\S+)\n', printed)[1])
+        time.sleep(0.1)
