@@ -13,6 +13,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from support.paths import ROOT
 from support.ros_processes import running
@@ -25,7 +26,6 @@ from amr_description.navigation.ros.localizer import plane_pose
 from amr_description.navigation.ros.messages import pose_message, pose_of
 from amr_description.navigation.scan_matching import ScanMatcher
 from amr_description.ros.messages import nanoseconds
-from amr_description.ros.qos import LATCHED
 from amr_description.sim.occupancy import map_of_world
 from amr_description.testing.readings import Motion
 from amr_description.testing.simulation import Simulation
@@ -39,6 +39,8 @@ STRAIGHT = 1.0
 """degrees."""
 SCANS, CYCLE = 0.1, 0.01
 """s between two scans, and two control cycles."""
+ALL_KEPT = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+"""Where each message is looked for by its stamp, none may take the place of one before."""
 
 pytest_plugins = ['amr_description.testing.fixtures']
 
@@ -94,7 +96,7 @@ class Listener:
         self._truths: dict[int, Pose] = {}
         node = sim.node
         node.create_subscription(
-            PoseWithCovarianceStamped, f'{namespace}/amcl_pose', self.poses.append, LATCHED
+            PoseWithCovarianceStamped, f'{namespace}/amcl_pose', self.poses.append, ALL_KEPT
         )
         topic = f'{namespace}/ground_truth/odom'
         node.create_subscription(Odometry, topic, self._note_truth, 100)

@@ -106,8 +106,9 @@ class Operator(Node):
         return abs(self.heard['ground_truth/odom'].twist.twist.linear.x) > 0.1
 
     def is_told_to_stand(self):
-        twist = self.heard['cmd_vel'].twist
-        return twist.linear.x == twist.angular.z == 0.0
+        if (command := self.heard.get('cmd_vel')) is None:  # it drives, but is not heard yet
+            return False
+        return command.twist.linear.x == command.twist.angular.z == 0.0
 
 
 def stamped(pose, frame='map'):
