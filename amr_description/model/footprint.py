@@ -213,7 +213,7 @@ def simplified(hull: PlanarPoints, tolerance: float) -> PlanarPoints:
     corners = [*hull]
     names = [*range(len(corners))]
     next_name = len(corners)
-    # By the names of the four corners around an edge: but for a few they stay from one to the next.
+    # By the names of the four corners around an edge; most stay from one round to the next.
     known: dict[tuple[int, ...], tuple[float, Floats]] = {}
     while (count := len(corners)) > 4:
         found = []
