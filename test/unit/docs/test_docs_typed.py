@@ -9,7 +9,6 @@ A test that types a page names the page in its file, and the beginning of the li
 
 import ast
 from functools import cache
-from pathlib import Path
 import re
 
 from support.doc_pages import Page, ROOT
@@ -27,7 +26,6 @@ ELSEWHERE = {
         'test/ros/benchmarks/test_parts.py'
     ),
     ('install.md', 'scripts/setup'): 'test/tooling/test_setup.py',
-    ('install.md', 'ros/bin/check_urdf'): 'test/system/docs/test_docs_pip.py',
     ('navigation.md', 'scripts/run navigation urdf:='): (
         'test/unit/bringup/test_bringup_navigation.py'
     ),
@@ -116,17 +114,18 @@ def commands(page):
 
 @cache
 def texts_of_tests():
-    """For each test file that names a page: (the names of pages in it, its other strings)."""
+    """For each test of processes that names a page: (the names of pages in it, its other strings)."""
     found = []
-    for path in sorted((ROOT / 'test').rglob('test_*.py')):
+    for path in sorted((ROOT / 'test/system').rglob('test_*.py')):
         text = path.read_text(encoding='utf-8')
-        if '.md' in text and path != Path(__file__):
+        if '.md' in text:
             strings = {
                 ' '.join(node.value.replace('\\\n', ' ').split())
+                + '\n' * node.value.endswith('\n')
                 for node in ast.walk(ast.parse(text))
                 if isinstance(node, ast.Constant) and isinstance(node.value, str)
             }
-            found.append((strings & {*NAMES}, {each for each in strings if ' ' in each}))
+            found.append((strings & {*NAMES}, {each for each in strings if len(each) > 7}))
     return found
 
 
@@ -145,7 +144,7 @@ def typed_lines(name):
     for pages, strings in texts_of_tests():
         for lines in chapters(Page(name)) if name in pages else ():
             for string in strings:
-                typed |= {next((line for line in lines if line.startswith(string)), '')}
+                typed |= {next((line for line in lines if f'{line}\n'.startswith(string)), '')}
                 typed |= {line for line in lines if line in string}
     return typed
 
