@@ -10,6 +10,7 @@ import pytest
 from support.doc_pages import mocked, Page, ROOT
 from support.page_lines import command, typed
 from support.running_programs import Program
+from support.shells import line_of
 
 ARM, GRIPPER = Page('joint_trajectory_controller.md'), Page('more_controllers.md')
 HARDWARE = Page('write_your_own_hardware.md')
@@ -53,3 +54,12 @@ def test_hardware_without_a_stack(tmp_path):
         typed(HARDWARE, 'ros2 control switch_controllers --activate')
         assert second.end(signal.SIGINT) == 0
         assert first.end(signal.SIGINT) == 0
+
+
+@pytest.mark.long  # as docs/your_own_robot.md in test_walk_robot_developer.py
+def test_the_sliders_of_the_tutorial(tmp_path):
+    _run, *words = line_of(Page('tutorial.md').text, 'scripts/run display').split()
+    prefixes = {'AMENT_PREFIX_PATH': os.environ['AMENT_PREFIX_PATH']}
+    with Bringup(tmp_path, *words, **prefixes) as up:
+        up.expect('The page is at http://127.0.0.1:')
+        assert up.end(signal.SIGINT) == 0

@@ -58,7 +58,6 @@ ELSEWHERE = {
     ('tutorial.md', 'ros2 run amr_description listener'): (
         'test/system/docs/test_tutorial.py'  # with the name of the package beside it
     ),
-    ('tutorial.md', 'scripts/run display'): 'test/system/docs/test_walk_robot_developer.py',
     ('two_machines.md', 'scripts/run simulation --discovery'): (
         'test/system/docs/test_docs_machines.py'
     ),
@@ -114,7 +113,7 @@ def commands(page):
 
 @cache
 def texts_of_tests():
-    """For each test of processes that names a page: (the names of pages in it, its other strings)."""
+    """For each file that starts processes and names a page: (its names of pages, other strings)."""
     found = []
     for path in sorted((ROOT / 'test/system').rglob('test_*.py')):
         text = path.read_text(encoding='utf-8')
