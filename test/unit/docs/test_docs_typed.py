@@ -113,7 +113,7 @@ def commands(page):
 
 @cache
 def texts_of_tests():
-    """For each file that starts processes and names a page: (its names of pages, other strings)."""
+    """For each file of test/system that names a page: its names of pages, its other strings."""
     found = []
     for path in sorted((ROOT / 'test/system').rglob('test_*.py')):
         text = path.read_text(encoding='utf-8')
