@@ -31,6 +31,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``parameter_files.py``  ROS parameter files: read, searched for a node's sections, written
 ``stand_ins.py``        packages of ROS that are not installed, and what is in their place
 ``registry.py``         names of plugins → ``module:attribute``, imported when used
+``argument_types.py``   numbers of command lines, for argparse
 ``ament_index.py``      packages, executables, ``package://`` and ``file://``
 ``clock.py``            nanoseconds; messages of before a jump back in time
 ``text.py``             one line, quoted, shortened; the closest known word

@@ -23,6 +23,7 @@ import math
 import sys
 from typing import TYPE_CHECKING
 
+from amr_description.argument_types import finite, positive
 from amr_description.cli.urdf_report import (
     drop_lines,
     failure_to_json,
@@ -151,8 +152,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     weight = parser.add_mutually_exclusive_group()
     about = 'of the link of --inertia; without it, the mass that the description gives it'
-    weight.add_argument('--mass', metavar='KG', type=_positive, help=f'mass {about}')
-    weight.add_argument('--density', metavar='KG/M3', type=_positive, help=f'density {about}')
+    weight.add_argument('--mass', metavar='KG', type=positive, help=f'mass {about}')
+    weight.add_argument('--density', metavar='KG/M3', type=positive, help=f'density {about}')
     add(
         '--footprint',
         action='store_true',
@@ -162,31 +163,11 @@ def _parser() -> argparse.ArgumentParser:
         '--heights',
         metavar=('LOW', 'HIGH'),
         nargs=2,
-        type=_finite,
+        type=finite,
         help='of what is in the footprint, m above the lowest collision (default: everything)',
     )
     add('--frame', metavar='LINK', help='of the footprint (default: base_link, base_footprint …)')
     return parser
-
-
-def _finite(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"'{text}' is no number")
-    return value
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value < math.inf:
-        raise argparse.ArgumentTypeError(f"'{text}' is no number above 0")
-    return value
 
 
 def _print_inertial(

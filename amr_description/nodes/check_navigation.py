@@ -21,6 +21,7 @@ import sys
 import threading
 
 from amr_description import streams
+from amr_description.argument_types import positive
 from amr_description.navigation.contract.findings import Verdict
 from amr_description.navigation.contract.observations import Frames, Observations
 from amr_description.navigation.contract.report import as_json, as_text
@@ -48,7 +49,7 @@ def parser() -> argparse.ArgumentParser:
     )
     options.add_argument(
         '--duration',
-        type=_positive,
+        type=positive,
         default=10.0,
         metavar='S',
         help='longest time to listen, by the system clock (default: %(default)s)',
@@ -140,16 +141,6 @@ def _report(seen: Observations, *, is_json: bool) -> int:
     except BrokenPipeError:  # as of `| head`
         streams.abandon_stdout()
     return int(any(finding.verdict is Verdict.FAILED for finding in findings))
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not (0.0 < value < float('inf')):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a positive number of seconds")
-    return value
 
 
 def main(args: list[str] | None = None) -> int:

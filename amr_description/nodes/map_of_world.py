@@ -20,10 +20,10 @@ command line is wrong.
 
 import argparse
 from dataclasses import dataclass
-import math
 from pathlib import Path
 import sys
 
+from amr_description.argument_types import finite
 from amr_description.errors import AmrError
 from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED
 from amr_description.navigation.map_files import save_map
@@ -56,30 +56,20 @@ def parser() -> argparse.ArgumentParser:
     add('-o', '--output', metavar='NAME', type=Path,
         help='write NAME.pgm and NAME.yaml (default: the name of the world, in this folder; with '
         '--publish: nothing)')  # fmt: skip
-    add('--resolution', metavar='M', type=_finite, default=_DEFAULTS.resolution,
+    add('--resolution', metavar='M', type=finite, default=_DEFAULTS.resolution,
         help='edge of a cell in m (default: %(default)s)')  # fmt: skip
-    add('--height', metavar='M', type=_finite, default=_DEFAULTS.height,
+    add('--height', metavar='M', type=finite, default=_DEFAULTS.height,
         help="height of the section in m (default: %(default)s, that of amr's lidar)")  # fmt: skip
-    add('--top', metavar='M', type=_finite,
+    add('--top', metavar='M', type=finite,
         help='take all that is between --height and this height, in m')  # fmt: skip
-    add('--start', metavar=('X', 'Y'), nargs=2, type=_finite, default=_DEFAULTS.start,
+    add('--start', metavar=('X', 'Y'), nargs=2, type=finite, default=_DEFAULTS.start,
         help='what can be reached from here is free, in m (default: 0 0)')  # fmt: skip
-    add('--padding', metavar='M', type=_finite, default=_DEFAULTS.padding,
+    add('--padding', metavar='M', type=finite, default=_DEFAULTS.padding,
         help='how far the map reaches beyond everything, in m (default: %(default)s)')  # fmt: skip
-    add('--extent', metavar=('X', 'Y', 'TO_X', 'TO_Y'), nargs=4, type=_finite,
+    add('--extent', metavar=('X', 'Y', 'TO_X', 'TO_Y'), nargs=4, type=finite,
         help='of the map in m, in place of that')  # fmt: skip
     add('--publish', action='store_true', help='publish it on /map, until Ctrl-C')
     return options
-
-
-def _finite(word: str) -> float:
-    try:
-        value = float(word)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"'{word}' is no number")
-    return value
 
 
 def settings_of(options: argparse.Namespace) -> MapSettings:

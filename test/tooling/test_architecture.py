@@ -27,9 +27,9 @@ MOST_LINES_OF_A_FILE = 600
 MOST_LINES_OF_A_FUNCTION = 60
 
 BASE = {
-    'ament_index', 'clock', 'colors', 'entry', 'errors', 'former_parameters', 'forking',
-    'launch_log', 'launch_variables', 'parameter_files', 'parameters', 'registry', 'stand_ins',
-    'streams', 'text',
+    'ament_index', 'argument_types', 'clock', 'colors', 'entry', 'errors', 'former_parameters',
+    'forking', 'launch_log', 'launch_variables', 'parameter_files', 'parameters', 'registry',
+    'stand_ins', 'streams', 'text',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {

@@ -22,6 +22,7 @@ import re
 from typing import Annotated, Any
 
 from amr_description.ament_index import path_of
+from amr_description.argument_types import word_of
 from amr_description.bringup import Node, Stack
 from amr_description.bringup.arguments import with_arguments_of
 from amr_description.bringup.controller_files import ABOUT_SENSORS, URDF, URDF_WITH_SENSORS
@@ -114,7 +115,7 @@ def _map(map: str, world: str, x: float, y: float) -> list[Node]:
         return [
             Node(
                 'map_of_world',
-                arguments=[world, '--publish', '--start', str(x), str(y)],
+                arguments=[world, '--publish', '--start', word_of(x), word_of(y)],
                 parameters=[{'use_sim_time': True}],
             )
         ]
@@ -173,7 +174,7 @@ def _on_obstacle_map(navigator: Node, world: str, x: float, y: float) -> list[No
     maps = Node(
         'map_of_world',
         name=_OBSTACLE_MAP,
-        arguments=[world, '--publish', '--start', str(x), str(y), *_BAND],
+        arguments=[world, '--publish', '--start', word_of(x), word_of(y), *_BAND],
         parameters=[{'use_sim_time': True}],
         remappings=remappings,
     )

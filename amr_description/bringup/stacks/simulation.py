@@ -8,6 +8,7 @@ import math
 from typing import Annotated
 from xml.etree import ElementTree
 
+from amr_description.argument_types import word_of
 from amr_description.bringup import (
     exited_cleanly,
     Node,
@@ -190,7 +191,12 @@ def _pose(name: str, x: float, y: float, z: str, yaw: float) -> list[str]:
         raise UsageError(f"z:={z}: '{z}' is not a number") from None
     if not all(map(math.isfinite, numbers)):
         raise UsageError(f'x:={x} y:={y} z:={z} yaw:={yaw}: a pose is of finite numbers')
-    words = [('-x', x and str(x)), ('-y', y and str(y)), ('-z', height), ('-Y', yaw and str(yaw))]
+    words = [
+        ('-x', x and word_of(x)),
+        ('-y', y and word_of(y)),
+        ('-z', height),
+        ('-Y', yaw and word_of(yaw)),
+    ]
     return [word for option, value in words if value for word in (option, str(value))]
 
 

@@ -25,6 +25,7 @@ import threading
 
 from rclpy.node import Node
 
+from amr_description.argument_types import positive
 from amr_description.controllers.drive_calibration import fit, Geometry, Run, yaw_error
 from amr_description.nodes.calibrate.drive import CalibrationDrive, Manoeuvre
 from amr_description.ros.arguments import other_arguments
@@ -50,21 +51,21 @@ def parser() -> argparse.ArgumentParser:
         help='node of the controller (default: %(default)s)',
     )
     options.add_argument(
-        '--linear', type=_positive, default=0.4, metavar='M/S', help='default: %(default)s'
+        '--linear', type=positive, default=0.4, metavar='M/S', help='default: %(default)s'
     )
     options.add_argument(
-        '--angular', type=_positive, default=0.8, metavar='RAD/S', help='default: %(default)s'
+        '--angular', type=positive, default=0.8, metavar='RAD/S', help='default: %(default)s'
     )
     options.add_argument(
         '--distance',
-        type=_positive,
+        type=positive,
         default=1.5,
         metavar='M',
         help='length of the straight runs (default: %(default)s)',
     )
     options.add_argument(
         '--timeout',
-        type=_positive,
+        type=positive,
         default=10.0,
         metavar='S',
         help='longest wait for anything, by the wall clock (default: %(default)s)',
@@ -174,13 +175,6 @@ def _drive(
 
 def _quantity(value: float, turns: bool) -> str:
     return f'{math.degrees(value):+.1f} deg' if turns else f'{value:+.4f} m'
-
-
-def _positive(text: str) -> float:
-    value = float(text)
-    if not (0.0 < value < math.inf):
-        raise argparse.ArgumentTypeError(f'{text} is not a positive number')
-    return value
 
 
 def main(args: list[str] | None = None) -> int:

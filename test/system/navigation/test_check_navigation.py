@@ -25,8 +25,8 @@ def test_ctrl_c_while_it_waits():
 @pytest.mark.parametrize(
     ('words', 'text'),
     [
-        (['--duration', '-1'], "'-1' is not a positive number of seconds"),
-        (['--duration', 'long'], "'long' is not a positive number of seconds"),
+        (['--duration', '-1'], "'-1' is no number above 0"),
+        (['--duration', 'long'], "'long' is no number above 0"),
         (['--fast'], 'unrecognized arguments: --fast'),
     ],
 )

@@ -66,6 +66,9 @@ def test_commands_go_through_the_mux_to_the_wheels():
 def test_the_map_is_that_of_the_world_seen_from_the_start():
     maps = node(stack(world='walls', x='1.5', y='-0.5', navigator='false'), 'map_of_world')
     assert maps.arguments == ['walls', '--publish', '--start', '1.5', '-0.5']
+    made = stack(world='walls', x='-1e-05', navigator='false')
+    assert node(made, 'map_of_world').arguments[-2:] == ['-0.00001', '0.0']
+    assert '-1e-05' not in node(made, 'create').arguments, 'argparse takes it for a flag'
     assert 'map_of_world' not in executables(stack(map='none'))
 
 
