@@ -65,8 +65,9 @@ PURPOSE = (
     'navigation can be tried before localisation.'
 )
 
-_QOS = QoSProfile(depth=10)
-_DEPTH = 5
+_QOS = QoSProfile(depth=100)
+"""Those of 1 s and more: none is to be lost while this process waits for a processor."""
+_DEPTH = 50
 """Truths that wait for their odometry."""
 _GAP = NANOSECONDS // 2
 """ns: odometry is not interpolated over more, as over the time between two robots."""
