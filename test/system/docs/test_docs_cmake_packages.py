@@ -26,7 +26,7 @@ CORNERS = [(0, 0, 0), (0.4, 0, 0), (0, 0.4, 0), (0, 0, 0.4)]
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 LINES = PAGE.text.split('Once built and sourced')[1]
 OUTSIDE = 'check_urdf ~/outside.urdf'
-DRIVER = 'ros2 pkg create their_driver --dependencies rclcpp --node-name driver'
+DRIVER = 'ros2 pkg create an_old_driver --dependencies rclcpp --node-name driver'
 
 
 def mesh():
@@ -62,11 +62,14 @@ def test_a_description_of_ament_cmake(tmp_path):
         shell.book = LINES
         shell.run('cd ~/ros2_ws')
         said = shell.run('colcon build', code=1)
-        (line,) = re.findall('^their_driver needs .*', said, re.MULTILINE)
+        (line,) = re.findall('^an_old_driver needs .*', said, re.MULTILINE)
         assert line.startswith(
-            "their_driver needs 'rclcpp' (find_package, CMakeLists.txt:10), which"
+            "an_old_driver needs 'rclcpp' (find_package, CMakeLists.txt:10), which"
         )
-        assert 'Finished <<< my_robot_description' in said
+        # It is built after the other one failed, which would stop colcon elsewhere.
+        assert (
+            'Finished <<< my_robot_description' in said.partition('Failed   <<< an_old_driver')[2]
+        )
         assert said.count('--- stderr') == 1
         shell.book = OUTSIDE
         assert "'my_robot_description' is not found" in shell.run('check_urdf')
