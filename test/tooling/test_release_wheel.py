@@ -89,6 +89,7 @@ def test_all_that_setup_writes_into_an_environment_is_in_it(members, tmp_path):
     parser = ConfigParser()
     parser.read_string(members[entry_points].content.decode())
     assert 'ament_copyright' in parser['pytest11']
+    assert 'amr_description' in parser['colcon_core.package_selection']
     assert 'console_scripts' not in parser  # thirty of them, on the PATH
 
 
@@ -137,6 +138,7 @@ printf '%s|' "${_amr_prefix-}" "${_amr_root-}"
 python -c 'import tf2_ros, amr_description; print(tf2_ros.Buffer.__module__)'
 "$1/lib/amr_description/bringup" --help | head -n 1
 cd "$1/lib" && amr_description/xacro --help | head -n 1
+"$CMAKE_COMMAND" --version | head -n 1
 """
 
 
@@ -144,10 +146,11 @@ def test_its_setup_file_makes_it_an_underlay(prefix, tmp_path):
     done = subprocess.run(
         ['bash', '-c', SHELL, 'bash', prefix], env=fresh(tmp_path), capture_output=True, text=True
     )
-    first, *usages = done.stdout.splitlines()
+    first, *usages, cmake = done.stdout.splitlines()
     expected = f'jazzy|{prefix}|{prefix}/bin/ros2|||amr_description.tf2_ros.buffer'
     assert (done.stderr, first) == ('', expected)
     assert [line.split()[0].lower() for line in usages] == ['usage:', 'usage:']
+    assert cmake.startswith('cmake version 3.28.')
     # As the setup.sh of a workspace does it, for any shell.
     command = 'COLCON_CURRENT_PREFIX=$1 . "$1/local_setup.sh"; command -v ros2'
     other = subprocess.run(
