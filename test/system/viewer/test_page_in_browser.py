@@ -184,8 +184,11 @@ def tab(browser, viewer):
 def page(tab):
     """The page, where nobody drives; the tests share it, as to open it costs a second of CPU."""
     tab.wait_until('!document.hidden && amr.now.driver === null && !amr.now.driving')
+    tab.wait_until("document.body.dataset.form === 'desk'")
+    tab.evaluate('document.activeElement.blur()')  # arrow keys would go from tab to tab
     yield tab
     tab.let_go()
+    tab.look_like()
 
 
 def is_shown(page):
@@ -368,11 +371,20 @@ def test_stop_holds_against_a_stranger_until_it_is_released(browser, viewer, ear
 
 
 @pytest.mark.parametrize(
-    ('width', 'height'), [(1440, 900), (960, 540), (390, 844), (320, 568), (844, 390), (667, 375)]
+    ('width', 'height', 'form'),
+    [
+        (1440, 900, 'desk'),
+        (960, 540, 'wide'),
+        (390, 844, 'tall'),
+        (320, 568, 'tall'),
+        (844, 390, 'wide'),
+        (667, 375, 'wide'),
+    ],
 )
-def test_stop_can_be_pressed_whatever_is_shown(page, width, height):
+def test_stop_can_be_pressed_whatever_is_shown(page, width, height, form):
     """Also with the panels open, without a robot that drives, without any, and without a link."""
     page.look_like(width, height, phone=width < 900)
+    page.wait_until(f"innerWidth === {width} && document.body.dataset.form === '{form}'")
     opened = "document.querySelector('.sheet').inert"
     for is_open in (False, True):
         if page.evaluate(opened) == is_open:
@@ -382,7 +394,6 @@ def test_stop_can_be_pressed_whatever_is_shown(page, width, height):
             page.evaluate(f"document.body.classList.toggle('{kind or 'x'}', true)")
             assert page.evaluate(PRESSABLE), (width, height, is_open, kind)
             page.evaluate(f"document.body.classList.toggle('{kind or 'x'}', false)")
-    page.look_like()
 
 
 def test_what_stands_still_is_said_to_be_old(page, simulation, ears):
