@@ -333,6 +333,8 @@ class Scheduler:
 
     def _apply(self, name: str, result: HandlerResult) -> None:
         """Do what a handler has returned."""
+        if result == HandlerResult():  # of most lines of output
+            return
         self.lines += result.lines
         self.shutdown = self.shutdown or result.shutdown
         try:

@@ -77,6 +77,8 @@ class Listeners:
 
     def __call__(self, line: str) -> handlers.Reaction:
         """Call all."""
+        if not self.functions:
+            return None
         found: list[Any] = []
         for function in self.functions:
             reaction = function(line)

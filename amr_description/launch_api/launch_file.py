@@ -66,7 +66,7 @@ class LaunchFile:
         notes: list[tuple[Level, str]] = [
             (
                 'WARNING',
-                f"nothing in it reads the argument '{name}'{suggestion(name, sorted(known))}",
+                f"it declares no argument '{name}'{suggestion(name, sorted(known))}",
             )
             for name in unknown
         ]

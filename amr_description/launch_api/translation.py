@@ -62,6 +62,8 @@ from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 
 _STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner', 'ros2')
 """What ends by itself soon, and is waited for."""
+_SOON = 10.0
+"""s; what starts later is not waited for until all is ready."""
 _LEVELS: Mapping[str, Level] = {
     'DEBUG': 'INFO', 'INFO': 'INFO', 'WARNING': 'WARNING', 'WARN': 'WARNING', 'ERROR': 'ERROR',
     'CRITICAL': 'ERROR', 'FATAL': 'ERROR',
@@ -364,7 +366,9 @@ def _is_step(node: NodeRef) -> bool:
 
 
 def _starts_soon(node: StackNode) -> bool:
-    """Return whether it starts at once, after a time, or after steps."""
+    """Return whether it starts at once, after some seconds, or after steps."""
+    if node.start_when is not None and node.start_when.delay > _SOON:
+        return False
     ends = [part for part in walk(node.start_when) if is_end_of_node(part)]
     return all(_is_step(other) for part in ends for other in part.nodes)
 

@@ -262,7 +262,7 @@ def test_a_launch_file_is_shown_and_printed(share, launch_file):
     printed = ros2('launch', launch_file, '--print', 'code:=0', 'cod:=1')
     assert (printed.returncode, printed.stderr) == (0, '')
     assert printed.stdout.startswith(
-        "[WARNING] nothing in it reads the argument 'cod'; did you mean 'code'? known: code\n"
+        "[WARNING] it declares no argument 'cod'; did you mean 'code'? known: code\n"
         "sh-1: at once, optional\n    sh -c 'echo $GREETING; exit 0'\n"
         '    GREETING=good day\n    in /\nplain-2: when sh-1 exited, optional\n'
     )

@@ -72,7 +72,7 @@ def test_what_the_page_names_is_there():
     assert PAGE.is_sound()
     table = re.findall(r'^\| (.*?) \|', PAGE.text, re.MULTILINE)[1:]
     names = {name for row in table for name in re.findall(r'`(\w+)\(', row)}
-    assert len(names) == 13
+    assert len(names) == 14
     assert names <= set(bringup.__all__)
     assert f'After {DEFAULT_TIMEOUT:.0f} seconds' in PAGE.text
     assert f'exit code {TIMED_OUT}' in PAGE.text

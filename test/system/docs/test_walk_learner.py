@@ -23,9 +23,11 @@ message packages, rqt                              README, "What is not here"
 """
 
 import re
+import time
 
 import pytest
 from support.doc_pages import Page, ROOT
+from support.running_programs import PATIENCE
 from support.shells import CTRL_C, newcomer, PROMPT
 
 README, PACKAGE, SIMULATOR = map(Page, ('../README.md', 'your_own_package.md', 'simulator.md'))
@@ -149,8 +151,9 @@ def test_the_tutorials_own_package(home, tutorials_package):
                 len(re.findall(r'(?m)^(?:joint_state|diff_drive)_.* active *$', controllers)) == 2
             )
             assert 'publishing #1' in other.run('ros2 topic pub --once /diff_drive')
-            while abs(odometry_x(other)) < 0.05:  # its axes point to the right: it drives back
-                pass
+            deadline = time.monotonic() + PATIENCE
+            while abs(x := odometry_x(other)) < 0.05:  # its axes point to the right: back
+                assert time.monotonic() < deadline, x
             other.run('ros2 run amr_description bringup stop')
         shell.see(re.escape(PROMPT))
 

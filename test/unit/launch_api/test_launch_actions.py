@@ -131,7 +131,7 @@ def test_conditions_and_arguments(launch):
     odd = launch(entities, mor='y', FOO='1')
     assert odd.notes[0] == (
         'WARNING',
-        "nothing in it reads the argument 'mor'; did you mean 'more'? known: more, which",
+        "it declares no argument 'mor'; did you mean 'more'? known: more, which",
     )
     with pytest.raises(BringupError, match=r'my.launch.py:\d+: Argument "which" provided value "'):
         launch(entities, which='c')
@@ -283,6 +283,22 @@ def heard(event):
     text = event.text.decode().strip()
     return LogInfo(msg=f'heard "{text}"') if 'ready' in text else None
 """
+
+
+def test_ready_is_what_starts_soon(launch):
+    stack = launch("""
+        a,
+        TimerAction(period=2, actions=[b]),
+        TimerAction(period=60, actions=[c]),
+        RegisterEventHandler(OnProcessExit(target_action=a, on_exit=[d])),
+    """, HANDLERS)  # fmt: skip
+    scheduler = Scheduler(stack)
+    scheduler.on_start(stack.nodes[0])
+    assert not scheduler.ready
+    scheduler.advance_to(2.0)
+    (second,) = scheduler.startable()
+    scheduler.on_start(second)
+    assert scheduler.ready
 
 
 def test_functions_are_called_when_the_event_comes(launch):
