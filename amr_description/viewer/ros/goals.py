@@ -205,12 +205,15 @@ class Goals:
         def on_feedback(message: Any) -> None:
             self._call(lambda: self._on_feedback(goal, message.feedback))
 
+        def send() -> Future:
+            sent = client.send_goal_async(wanted, on_feedback)
+            sent.add_done_callback(lambda done: self._call(lambda: self._on_answer(goal, done)))
+            return sent
+
         wanted = action_type(NAVIGATE).Goal(pose=pose)
         self._asked.add(goal)
         try:
-            goal.handle = await self._asked_of(
-                goal.action, lambda: client.send_goal_async(wanted, on_feedback)
-            )
+            goal.handle = await self._asked_of(goal.action, send)
         finally:
             self._asked.discard(goal)
         if not goal.handle.accepted:
@@ -219,6 +222,16 @@ class Goals:
         self._tell(goal.status)
         self._executor.create_task(self._await_result, goal)
         if goal.reason:  # STOP was pressed in the meantime
+            self._executor.create_task(_cancel, goal)
+
+    def _on_answer(self, goal: _Goal, done: Future) -> None:
+        """Cancel a goal that is accepted after its page was told that it is not."""
+        is_late = goal not in self._asked and goal.handle is None
+        if not is_late or done.exception() is not None:
+            return
+        goal.handle = done.result()
+        if goal.handle.accepted:
+            self._node.get_logger().warning(f'{goal.action} has accepted a goal too late')
             self._executor.create_task(_cancel, goal)
 
     def _await_result(self, goal: _Goal) -> None:

@@ -17,6 +17,7 @@ from support.ros_processes import PATIENCE
 from amr_description.errors import ViewerError
 from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.requests import SetGoal, SetInitialPose
+from amr_description.viewer.ros import goals
 from amr_description.viewer.ros.goals import Goals
 
 NAVIGATOR = Navigator('/a', '/a/goal_pose', '/a/navigate_to_pose', None)
@@ -158,6 +159,25 @@ def test_what_the_server_refuses_is_refused(graph):
     until(lambda: graph.server.goals)
     with pytest.raises(ViewerError, match='does not cancel the goal'):
         graph.run(graph.goals.cancel('/a'))
+
+
+class Slow:
+    """Is true once it is released."""
+
+    def __init__(self):
+        self.released = threading.Event()
+
+    def __bool__(self):
+        return self.released.wait(PATIENCE)
+
+
+def test_a_goal_that_is_accepted_too_late_is_cancelled(graph, monkeypatch):
+    monkeypatch.setattr(goals, '_ANSWER_TIMEOUT', 0.1)
+    graph.server.accepts = Slow()
+    with pytest.raises(ViewerError, match='has not answered within 0.1 s'):
+        graph.give()
+    graph.server.accepts.released.set()
+    until(lambda: graph.server.goals and graph.server.goals[0].is_cancel_requested)
 
 
 def test_a_goal_ends_with_its_server(graph):
