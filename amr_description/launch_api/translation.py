@@ -19,10 +19,12 @@ import os
 from pathlib import Path
 import shlex
 import shutil
+import sys
 from typing import Any
 
 from amr_description.ament_index import executable_of, OWN_PACKAGE, path_of
 from amr_description.bringup import handlers
+from amr_description.bringup.command_line import check_prefix
 from amr_description.bringup.conditions import (
     after,
     all_of,
@@ -62,6 +64,7 @@ from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 
 _STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner', 'ros2')
 """What ends by itself soon, and is waited for."""
+_READS_KEYS = 'teleop_twist_keyboard'
 _SOON = 10.0
 """s; what starts later is not waited for until all is ready."""
 _LEVELS: Mapping[str, Level] = {
@@ -254,6 +257,10 @@ class Translation:
             if isinstance(each, Path):
                 path_of(str(each))
         remappings = [(text_of(context, a), text_of(context, b)) for a, b in action.remappings]
+        common = self._common(action)
+        if package == OWN_PACKAGE and executable == _READS_KEYS and sys.stdin.isatty():
+            common |= {'terminal': True, 'prefix': ''}  # no `xterm -e` is needed
+        check_prefix(common['prefix'])
         node = StackNode(
             executable,
             package=package,
@@ -262,7 +269,7 @@ class Translation:
             parameters=parameters,
             remappings=[*given.get(REMAPPINGS, ()), *remappings],
             arguments=arguments,
-            **self._common(action),
+            **common,
         )
         self._add(action, node)
 
@@ -289,7 +296,9 @@ class Translation:
         folder = None if action.cwd is None else text_of(context, action.cwd)
         if folder is not None and not Path(folder).is_dir():
             raise refusal(f"cwd='{folder}': there is no such folder", '')
-        node = StackNode(label, command=command, folder=folder, **self._common(action))
+        common = self._common(action)
+        check_prefix(common['prefix'])
+        node = StackNode(label, command=command, folder=folder, **common)
         self._add(action, node)
 
     def _is_gazebo(self, words: list[str], action: ExecuteProcess) -> bool:
@@ -317,9 +326,9 @@ class Translation:
         environment = context.changes_of_environment()
         if action.env is not None:
             environment = dict.fromkeys(os.environ) | _texts(context, action.env)
-        prefix = action.prefix
-        if prefix is None:
-            prefix = str(context.launch_configurations.get(_PREFIX, ''))
+        prefix = str(context.launch_configurations.get(_PREFIX, ''))
+        if action.prefix is not None:
+            prefix = text_of(context, action.prefix)
         respawn = None
         if action.respawns(context):
             limit = action.respawn_max_retries
@@ -332,7 +341,7 @@ class Translation:
         ends_all = _is_shutdown(action.on_exit)
         return {
             'environment': environment | _texts(context, action.additional_env),
-            'prefix': text_of(context, prefix),
+            'prefix': prefix,
             'start_when': self.when,
             'timeout': math.inf,
             'required': ends_all,

@@ -3,6 +3,7 @@
 """Actions and event handlers of launch files, translated; who starts when, without processes."""
 
 import textwrap
+from types import SimpleNamespace
 
 from fixtures.launch_files.packages import (
     commands,
@@ -374,6 +375,21 @@ def test_commands(launch, toys):
     assert stack.nodes[0].respawn.delay == 2.0
     assert whens(stack)['sh-1'] == 'at once, started again'
     assert 'world: walls' in parameters(stack, 'mujoco_sim-3')
+
+
+@pytest.mark.parametrize('is_a_terminal', [True, False])
+def test_the_keyboard_has_the_terminal(launch, monkeypatch, is_a_terminal):
+    monkeypatch.setattr('sys.stdin', SimpleNamespace(isatty=lambda: is_a_terminal))
+    name = 'teleop_twist_keyboard'
+    entities = f"Node(package='{name}', executable='{name}', prefix='%s'),"
+    (node,) = launch(entities % 'nice -n 5').nodes
+    assert node.terminal is is_a_terminal
+    assert node.prefix == ('' if is_a_terminal else 'nice -n 5')
+    if not is_a_terminal:
+        with pytest.raises(
+            BringupError, match=r"my.launch.py:2\d: prefix 'nope_ -e': there is no"
+        ):
+            launch(entities % 'nope_ -e')
 
 
 def test_opaque_functions_and_own_actions(launch):
