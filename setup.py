@@ -98,6 +98,7 @@ setup(
     entry_points={
         'console_scripts': [  # by way of entry.py: quiet on Ctrl-C from the first moment
             'bringup = amr_description.entry:bringup.main.main',
+            'build_interfaces = amr_description.entry:nodes.build_interfaces.main',
             'calibrate = amr_description.entry:nodes.calibrate.main',
             'check_navigation = amr_description.entry:nodes.check_navigation.main',
             'create = amr_description.entry:nodes.create.main',

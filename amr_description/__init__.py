@@ -21,6 +21,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``launch_api/``         launch files of ROS: ``import launch``, ``import launch_ros``
 ``cli/``                the ``ros2`` command and ``check_urdf``, one file a verb
 ``workspace/``          what ``colcon build`` of packages of users needs
+``interface_build/``    message packages: what CMake of a workspace calls, and wheels of them
 ``testing/``            a simulation in lock-step, for tests of users
 
 ``errors.py``           every error that is raised on purpose

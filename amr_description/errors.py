@@ -31,6 +31,8 @@ Every error that this package raises on purpose.
     │   └── MapDataError       … its image
     ├── NavigationError      a goal cannot be planned, or not be driven to; has Nav2's error code
     ├── CalibrationError     the measured drive does not determine the parameters
+    ├── InterfaceBuildError  an interface package cannot be built
+    │   └── CompilerError    … because there is no C and C++ compiler that works (exit code 3)
     ├── ViewerError          the browser page's server cannot do what was asked
     │   └── ProtocolError    a message of a page is malformed
     ├── BringupError         a stack is malformed, or one of its steps failed
@@ -169,6 +171,16 @@ class NavigationError(AmrError):
 
 class CalibrationError(AmrError):
     """The measured drive does not determine the parameters."""
+
+
+class InterfaceBuildError(AmrError):
+    """An interface package cannot be built."""
+
+
+class CompilerError(InterfaceBuildError):
+    """There is no C and C++ compiler that works."""
+
+    exit_code = 3
 
 
 class ViewerError(AmrError):

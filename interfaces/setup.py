@@ -11,9 +11,9 @@ from setuptools import Distribution, setup
 from setuptools.command.build import build
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
+sys.path.append(str(HERE.parent))  # a copy of this folder has it on PYTHONPATH
 
-from interface_build.build import build as build_interfaces  # noqa: E402
+from amr_description.interface_build.build import build as build_interfaces  # noqa: E402
 
 
 class BinaryDistribution(Distribution):

@@ -26,7 +26,7 @@ from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
 ROOT = Path(__file__).resolve().parents[1]
 UNIT = ROOT / 'test' / 'unit'
 # The parts of these are tested too, and benchmarks/ is imported from the checkout.
-sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT / 'interfaces'), str(ROOT)]
+sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT)]
 
 pytest_plugins = ['support.stderr_file']
 preloaded.start_for(program)  # the simulators of tests that are written as users write theirs

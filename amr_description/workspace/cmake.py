@@ -22,6 +22,7 @@ from amr_description.workspace.stand_ins import compiles_nothing, known_beforeha
 
 _COMPILERS = {'C': ('cc', 'gcc', 'clang'), 'CXX': ('c++', 'g++', 'clang++')}
 _FAILED = re.compile(r'^(FAILED: |ninja: error: |CMake Error)', re.MULTILINE)
+_FAULTS = 'rosidl_generate_interfaces/*/faults'
 _INTERRUPTED = 130
 _NONE = '/bin/false'  # stands in for a compiler
 _NO_FEATURES = 'no known features'
@@ -120,6 +121,8 @@ def _build(command: list[str], folder: str) -> int:
             text = text[failed.start() :]
         if text.startswith('FAILED: ') and _cached(folder, 'CMAKE_C(XX)?_COMPILER') == _NONE:
             text = _NO_COMPILER
+        faults = sorted(Path(folder).glob(_FAULTS))  # interface_build/cmake_target.py writes them
+        text = ''.join(file.read_text() for file in faults) or text
         _report(process.returncode, text, '', _cached(folder, 'CMAKE_HOME_DIRECTORY'))
     return process.returncode
 

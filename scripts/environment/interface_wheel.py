@@ -19,13 +19,14 @@ from . import progress, SetupError, stamps
 from .commands import run
 from .virtual_environment import pinned_versions, python_of
 
-# Reads .idl files. Here for the time of the build and not in .venv, for a reason: each node that
-# uses a message imports rosidl_generator_py, which imports the whole generator when it finds this
-# (else it goes without, by design): 45 of 170 ms of processor time, for each node that starts.
+# Reads .idl files. In a folder that only builds look into (interface_build/generators.py).
 PARSER = 'lark-parser==0.12.0'
+PARSER_FOLDER = 'lib/interface_build'
+# The modules of interface_build/ that the wheel is built by: another one needs no new wheel.
+BUILDER = ('build', 'generators', 'libraries', 'packages', 'records', 'stage', 'toolchain')
 # The compiler that needs no root: a wheel, for machines without gcc and clang.
 ZIG = 'ziglang==0.17.1'
-NO_COMPILER = 3  # exit code of `python -m interface_build --check`
+NO_COMPILER = 3  # exit code of `interface_build --check`
 # What the build reads of the environment: headers, generators, the template engine, numpy's ABI.
 COMPILED_AGAINST = ('ros-', 'numpy', 'empy', 'setuptools')
 # Of what begins so, what it does not read: CMake's side of ROS, for workspaces of users.
@@ -41,15 +42,33 @@ def key(interfaces: Path, lock: Path) -> str:
         for name, version in sorted(pins.items())
         if name.startswith(COMPILED_AGAINST) and not NOT_COMPILED_AGAINST.match(name)
     ]
-    sources = stamps.digest_files(stamps.files_below(interfaces), interfaces)
+    files = [*stamps.files_below(interfaces), *builder_files(interfaces.parent)]
+    sources = stamps.digest_files(files, interfaces.parent)
     python = sys.implementation.cache_tag or ''
     return stamps.digest(sources, *against, PARSER, python, platform.machine())
+
+
+def builder_files(root: Path) -> list[Path]:
+    """Return the modules of the checkout ``root`` that the wheel is built by."""
+    return [root / 'amr_description' / 'interface_build' / f'{name}.py' for name in BUILDER]
+
+
+def install_parser(venv: Path, environment: Mapping[str, str]) -> None:
+    """Install what reads ``.idl`` files, unless it is there."""
+    target = venv / PARSER_FOLDER
+    if not target.is_dir():
+        fetch = [python_of(venv), '-m', 'pip', 'install', '--no-deps', '--only-binary=:all:']
+        run([*fetch, '--target', target, PARSER], environment, f'fetching {PARSER}')
 
 
 def install(
     interfaces: Path, lock: Path, venv: Path, cache: Path, environment: Mapping[str, str]
 ) -> None:
-    """Install the wheel into ``venv``, from the cache or built there and then."""
+    """
+    Install the wheel into ``venv``, from the cache or built there and then, and what users need to
+    build interface packages of their own.
+    """
+    install_parser(venv, environment)
     wheel = built(interfaces, lock, venv, cache, environment)
     options = ['--no-deps', '--no-index', '--force-reinstall']
     command = [python_of(venv), '-m', 'pip', 'install', *options, wheel]
@@ -93,18 +112,17 @@ def _with_tools(
     """Return the environment to build in: with the parser, and a compiler if there is none."""
     import subprocess
 
-    tools = scratch / 'tools'
+    install_parser(venv, environment)
+    tools, root = scratch / 'tools', interfaces.parent
     environment = {
         **environment,
-        'PYTHONPATH': os.fspath(tools),
+        'PYTHONPATH': f'{tools}{os.pathsep}{root}',
         'ZIG_GLOBAL_CACHE_DIR': os.fspath(scratch / 'zig-cache'),
     }
     fetch = [python_of(venv), '-m', 'pip', 'install', '--no-deps', '--only-binary=:all:']
     fetch += ['--target', tools]
-    run([*fetch, PARSER], environment, f'fetching {PARSER}')
     check = subprocess.run(
-        [python_of(venv), '-m', 'interface_build', '--check'],
-        cwd=interfaces,
+        [python_of(venv), '-P', root / 'amr_description' / 'interface_build', '--check'],
         env=environment,
         stderr=subprocess.PIPE,
         text=True,

@@ -52,6 +52,7 @@ ARROWS = {
     'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
     'viewer/ros': {'viewer', 'ros', 'model'},
     'navigation/ros': {'navigation', 'ros', 'tf2_ros', 'model'},
+    'interface_build': set(),  # builds call it by its path
     'bringup': {'model'},
     # Its actions are translated into stacks.
     'launch_api': {'bringup'},

@@ -3,20 +3,18 @@
 """The build of interface packages: what it finds, in which order, and what it says of faults."""
 
 from pathlib import Path
+import subprocess
 import sys
 import sysconfig
 
 import em
+from environment import interface_wheel
 from hypothesis import given, strategies as st
-from interface_build import (
-    BuildError,
-    CompilerError,
-    generators,
-    libraries,
-    packages,
-    toolchain,
-)
 import pytest
+from support import public_interfaces
+
+from amr_description.errors import CompilerError, InterfaceBuildError
+from amr_description.interface_build import generators, libraries, packages, toolchain
 
 
 @pytest.fixture
@@ -75,40 +73,42 @@ def test_dependencies_are_followed_here_and_in_the_prefix(folder, tmp_path):
     folder('b_msgs', 'c_msgs')
     prefix = tmp_path / 'prefix'
     for name, depends in (('c_msgs', '<depend>d_msgs</depend>'), ('d_msgs', '')):
-        (prefix / 'share' / name).mkdir(parents=True)
+        (prefix / 'share' / name / 'msg').mkdir(parents=True)
         (prefix / 'share' / name / 'package.xml').write_text(f'<package>{depends}</package>')
         (prefix / 'lib').mkdir(exist_ok=True)
         (prefix / 'lib' / f'lib{name}__rosidl_generator_c.so').touch()
     found = packages.find_packages(root)
-    reached = packages.interface_dependencies(found[-1], found, prefix)
+    reached = packages.interface_dependencies(found[-1], found, packages.find_underlay(prefix))
     assert reached == ['b_msgs', 'c_msgs', 'd_msgs']
 
 
 def test_packages_that_need_each_other_are_refused(folder):
     folder('a_msgs', 'b_msgs')
-    with pytest.raises(BuildError, match='need each other: [ab]_msgs -> [ab]_msgs -> [ab]_msgs'):
+    with pytest.raises(
+        InterfaceBuildError, match='need each other: [ab]_msgs -> [ab]_msgs -> [ab]_msgs'
+    ):
         packages.find_packages(folder('b_msgs', 'a_msgs'))
 
 
 def test_folder_and_package_have_the_same_name(folder):
-    with pytest.raises(BuildError, match="called 'b_msgs', its folder 'a_msgs'"):
+    with pytest.raises(InterfaceBuildError, match="called 'b_msgs', its folder 'a_msgs'"):
         packages.find_packages(folder('a_msgs', called='b_msgs'))
 
 
 def test_a_package_without_interfaces_is_refused(folder):
-    with pytest.raises(BuildError, match='a_msgs: no interface found'):
+    with pytest.raises(InterfaceBuildError, match='a_msgs: no interface found'):
         packages.find_packages(folder('a_msgs', files=()))
 
 
 def test_a_broken_manifest_is_named(folder):
     root = folder('a_msgs')
     (root / 'a_msgs/package.xml').write_text('<package>')
-    with pytest.raises(BuildError, match='a_msgs/package.xml: not well-formed XML'):
+    with pytest.raises(InterfaceBuildError, match='a_msgs/package.xml: not well-formed XML'):
         packages.find_packages(root)
 
 
 def test_an_empty_folder_is_refused(tmp_path):
-    with pytest.raises(BuildError, match='no folder with a package.xml'):
+    with pytest.raises(InterfaceBuildError, match='no folder with a package.xml'):
         packages.find_packages(tmp_path)
 
 
@@ -155,7 +155,9 @@ def test_zig_is_the_last_resort(tmp_path, monkeypatch):
 
 def test_missing_headers_of_python_are_named(tmp_path, monkeypatch):
     monkeypatch.setattr(sysconfig, 'get_path', lambda _name: str(tmp_path))
-    with pytest.raises(BuildError, match=f'{tmp_path}/Python.h not found.*python3.12-dev'):
+    with pytest.raises(
+        InterfaceBuildError, match=f'{tmp_path}/Python.h not found.*python3.12-dev'
+    ):
         toolchain.python_headers()
 
 
@@ -181,7 +183,7 @@ def test_a_library_is_found_in_the_first_folder_that_has_it(tmp_path):
     (wheels / 'librmw.so').touch()
     assert libraries.find_library('both', (ours, wheels)) == ours / 'libboth.so'
     assert libraries.find_library('rmw', (ours, wheels)) == wheels / 'librmw.so'
-    with pytest.raises(BuildError, match=f'libnone.so is not in {ours} nor in {wheels}'):
+    with pytest.raises(InterfaceBuildError, match=f'libnone.so is not in {ours} nor in {wheels}'):
         libraries.find_library('none', (ours, wheels))
 
 
@@ -209,3 +211,47 @@ def test_expressions_of_templates_end_where_empy_finds_their_ends(text, start, s
     start = min(start, len(text))
     expected = end_of_expression(em.Scanner.complex, text, start, skip)
     assert end_of_expression(generators.end_of_expression, text, start, skip) == expected
+
+
+def test_another_module_than_these_needs_no_new_wheel():
+    folder = f'{libraries.__name__.rpartition(".")[0]}.'
+    code = f"""
+import sys
+import {folder}build
+print(*(name.removeprefix('{folder}') for name in sys.modules if name.startswith('{folder}')))
+"""
+    loaded = subprocess.run([sys.executable, '-c', code], check=True, stdout=subprocess.PIPE)
+    assert sorted(loaded.stdout.decode().split()) == sorted(interface_wheel.BUILDER)
+
+
+def test_what_a_library_of_a_workspace_calls_is_found_before_the_underlay(folder, tmp_path):
+    (found,) = packages.find_packages(folder('a_msgs'))
+    package = generators.GeneratedPackage(found, tmp_path / 'build', tmp_path / 'prefix')
+    jobs = libraries.link_jobs(package, [], tmp_path / 'stage', ['../../b_msgs/lib'])
+    assert all(job.comes_first for job in jobs)
+    assert {job.run_path for job in jobs} == {
+        '$ORIGIN:$ORIGIN/../../b_msgs/lib',
+        '$ORIGIN/../../..:$ORIGIN/../../../../../b_msgs/lib',
+    }
+    # Opened by its bare name, it is that of the workspace if that is loaded already.
+    assert [job.loads for job in jobs if job.loads] == [('a_msgs__rosidl_typesupport_fastrtps_c',)]
+    assert not any(job.comes_first for job in libraries.link_jobs(package, [], tmp_path / 'stage'))
+
+
+def test_public_messages_have_their_public_hashes(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, 'path', [*sys.path])
+    generators.find_parser()
+    public_interfaces.write_public_packages(tmp_path / 'src')
+    underlay = packages.find_underlay(Path(sys.prefix))
+    found = {}
+    for source in packages.find_packages(tmp_path / 'src'):
+        package = generators.GeneratedPackage(source, tmp_path / source.name, Path(sys.prefix))
+        generators.write_idl(package)
+        generators.write_type_descriptions(package, [], underlay)
+        described = package.generated(generators.TYPE_DESCRIPTION)
+        found |= {
+            name: public_interfaces.hash_of(described.parent / f'{name}.json', name)
+            for name in public_interfaces.HASHES
+            if name.startswith(f'{source.name}/')
+        }
+    assert found == public_interfaces.HASHES

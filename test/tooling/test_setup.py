@@ -26,6 +26,8 @@ from environment.stamps import digest, digest_files, files_below, Stamp
 import pytest
 from support.paths import ROOT
 
+BUILDER = 'amr_description/interface_build'
+
 
 @pytest.fixture
 def checkout(tmp_path):
@@ -37,6 +39,7 @@ def checkout(tmp_path):
         'package.xml': '<package/>',
         'scripts/requirements.lock': 'setuptools==79.0.1\npytest==9.2.0\nros-rclpy==7.1.6\n',
         'interfaces/a_msgs/msg/A.msg': 'int8 a\n',
+        **{f'{BUILDER}/{name}.py': '' for name in interface_wheel.BUILDER},
         'urdf/robot.urdf': '<robot/>',
         'config/controllers.yaml': '{}',
     }
@@ -114,6 +117,10 @@ def test_another_interface_needs_the_wheel_alone(made, checkout):
     made()
     (checkout.interfaces / 'a_msgs/msg/B.msg').write_text('int8 b\n')
     assert made() == ['interfaces']
+    (checkout.root / BUILDER / 'stage.py').write_text('changed')
+    assert made() == ['interfaces']
+    (checkout.root / BUILDER / 'wheel.py').write_text('of no concern')
+    assert made() == []
 
 
 def test_another_lock_needs_all(made, checkout):

@@ -3,15 +3,27 @@
 """Fill the tree that is laid over a prefix: ``lib/ share/ include/`` and ``python/<package>``."""
 
 from pathlib import Path
-import shutil
 
-from interface_build.generators import GeneratedPackage, TYPE_DESCRIPTION, TYPESUPPORTS
+from amr_description.interface_build import records
+from amr_description.interface_build.generators import (
+    GeneratedPackage,
+    TYPE_DESCRIPTION,
+    TYPESUPPORTS,
+)
+
+CMAKE_CONFIG = """\
+# find_package({name}): its messages are found; there is nothing to compile C++ with.
+set({name}_FOUND TRUE)
+set({name}_FOUND_AMENT_PACKAGE TRUE)
+"""
 
 
 def stage_package(package: GeneratedPackage, stage: Path) -> None:
     """Copy what a ROS installation holds of ``package``, beside its libraries."""
     _stage_share(package, stage / 'share' / package.name)
     _stage_index(package, stage / 'share' / 'ament_index' / 'resource_index')
+    config = stage / 'share' / package.name / 'cmake' / f'{package.name}Config.cmake'
+    records.write_if_different(config, CMAKE_CONFIG.format(name=package.name))
     _copy_tree(package.generated('rosidl_generator_py'), stage / 'python' / package.name, '*.py')
     for generator in ('rosidl_generator_c', *TYPESUPPORTS):  # to build other packages on top
         target = stage / 'include' / package.name / package.name
@@ -22,19 +34,21 @@ def _stage_share(package: GeneratedPackage, share: Path) -> None:
     """Copy the manifest and, per interface, its source, its ``.idl`` and its description."""
     descriptions = package.generated(TYPE_DESCRIPTION)
     for path in package.source.interfaces:
-        (share / path.parent).mkdir(parents=True, exist_ok=True)
-        shutil.copy(package.source.folder / path, share / path)
+        records.copy_if_different(package.source.folder / path, share / path)
         for root, suffix in ((package.idl, '.idl'), (descriptions, '.json')):
-            shutil.copy(root / path.with_suffix(suffix), share / path.with_suffix(suffix))
-    shutil.copy(package.source.folder / 'package.xml', share)
+            file = path.with_suffix(suffix)
+            records.copy_if_different(root / file, share / file)
+    records.copy_if_different(package.source.folder / 'package.xml', share / 'package.xml')
 
 
 def _stage_index(package: GeneratedPackage, index: Path) -> None:
     """Write the ament index entries that the ROS tools look packages and interfaces up by."""
     listed = sorted(
-        file.as_posix()
-        for path in package.source.interfaces
-        for file in (path, path.with_suffix('.idl'))
+        {
+            file.as_posix()
+            for path in package.source.interfaces
+            for file in (path, path.with_suffix('.idl'))
+        }
     )
     entries = {
         'packages': '',
@@ -42,13 +56,10 @@ def _stage_index(package: GeneratedPackage, index: Path) -> None:
         'rosidl_interfaces': '\n'.join(listed),
     }
     for resource, text in entries.items():
-        (index / resource).mkdir(parents=True, exist_ok=True)
-        (index / resource / package.name).write_text(text)
+        records.write_if_different(index / resource / package.name, text)
 
 
 def _copy_tree(source: Path, target: Path, pattern: str) -> None:
     """Copy the files that match ``pattern``, keeping their folders."""
     for path in source.rglob(pattern):
-        copy = target / path.relative_to(source)
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(path, copy)
+        records.copy_if_different(path, target / path.relative_to(source))

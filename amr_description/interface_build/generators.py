@@ -8,15 +8,23 @@ Everything of a package lands in ``<build>/<package>/``: ``idl/`` and, one folde
 the packages they refer to. The code generators are independent of each other.
 """
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 import functools
+import importlib.util
 import json
 from pathlib import Path
+import pickle
+import sys
 from typing import Any
 
-from interface_build.packages import InterfacePackage, KINDS
+from amr_description.errors import InterfaceBuildError
+from amr_description.interface_build import records
+from amr_description.interface_build.packages import InterfacePackage, Underlay
 
 TYPESUPPORTS = ('rosidl_typesupport_fastrtps_c', 'rosidl_typesupport_introspection_c')
+PARSER = 'lark-parser==0.12.0'
 TYPE_DESCRIPTION = 'rosidl_generator_type_description'
 # Slowest first: they run side by side.
 CODE_GENERATORS = (
@@ -71,15 +79,51 @@ class GeneratedPackage:
         return str(file)
 
 
-def parse_each_file_once() -> None:
+def find_parser() -> None:
     """
-    Remember in this process what was parsed: each generator reads the same ``.idl`` files.
+    Make lark importable, by which ``.idl`` files are parsed.
 
-    Their grammar is slow: 99 interfaces take 62 s of processor time in all without, 44 s with it.
+    It is kept apart: each node that uses a message imports rosidl_generator_py, which imports the
+    whole generator when it finds lark (else it goes without, by design): 45 of 170 ms of processor
+    time, for each node that starts.
+
+    Raises:
+        InterfaceBuildError: it is not installed.
+    """
+    folder = Path(sys.prefix, 'lib', 'interface_build')
+    if importlib.util.find_spec('lark') is None:
+        sys.path.append(str(folder))
+    if importlib.util.find_spec('lark') is None:
+        raise InterfaceBuildError(
+            f'{PARSER} is not installed, which reads interface files; install it with: '
+            f'{sys.executable} -m pip install --target {folder} {PARSER}'
+        )
+
+
+def parse_each_file_once(folder: Path) -> None:
+    """
+    Remember what was parsed, in this process and in ``folder``: generators read the same files.
+
+    The grammar of ``.idl`` files is slow: 50 ms each.
     """
     from rosidl_parser import parser
 
-    parser.get_ast_from_idl_string = functools.cache(parser.get_ast_from_idl_string)
+    parse = parser.get_ast_from_idl_string
+    if hasattr(parse, 'cache_info'):  # in a worker, forked from a process that has done it
+        return
+
+    @functools.cache
+    def parse_once(text: str) -> Any:
+        file = folder / f'{records.digest(text)}.parsed'
+        try:
+            return pickle.loads(file.read_bytes())
+        except (OSError, EOFError, pickle.UnpicklingError):
+            tree = parse(text)
+        folder.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(pickle.dumps(tree))
+        return tree
+
+    parser.get_ast_from_idl_string = parse_once
 
 
 def scan_templates_quickly() -> None:
@@ -139,25 +183,82 @@ def write_idl(package: GeneratedPackage) -> None:
         '.action': convert_action_to_idl,
     }
     for path in package.source.interfaces:
+        if path.suffix == '.idl':
+            records.copy_if_different(package.source.folder / path, package.idl / path)
+            continue
         convert[path.suffix](package.source.folder, package.name, path, package.idl / path.parent)
 
 
-def write_type_descriptions(package: GeneratedPackage, earlier: list[GeneratedPackage]) -> None:
+def write_type_descriptions(
+    package: GeneratedPackage, earlier: list[GeneratedPackage], underlay: Underlay
+) -> None:
     """Write the type descriptions with their RIHS01 hashes, ``<Name>.json``."""
     from rosidl_generator_type_description import generate_type_hash
 
-    folders = {
-        share.name: share
-        for share in sorted((package.prefix / 'share').iterdir())
-        if any((share / kind).is_dir() for kind in KINDS)
-    }
+    folders = {name: underlay.share(name) for name in underlay.prefixes}
+    folders.pop(package.name, None)
     folders |= {other.name: other.generated(TYPE_DESCRIPTION) for other in earlier}
     include_paths = [f'{name}:{folder}' for name, folder in folders.items()]
     generate_type_hash(package.write_arguments(TYPE_DESCRIPTION, include_paths=include_paths))
 
 
+class ExpandedTemplates:
+    """What templates were expanded from, so that this is done again only for other contents."""
+
+    def __init__(self, package: GeneratedPackage, generator: str) -> None:
+        """Read what is known of the last time."""
+        self._idl = package.idl
+        self._file = package.build / f'{generator}__expanded.json'
+        self._made_of = json.loads(self._file.read_text()) if self._file.exists() else {}
+
+    @contextmanager
+    def used(self) -> Iterator[None]:
+        """Have rosidl expand only what has changed; write it down at the end."""
+        import rosidl_pycommon
+
+        expand = rosidl_pycommon.expand_template
+        rosidl_pycommon.expand_template = functools.partial(self.expand, expand)
+        try:
+            yield
+        finally:
+            rosidl_pycommon.expand_template = expand
+            self._file.write_text(json.dumps(self._made_of))
+
+    def expand(
+        self,
+        expand: Callable[..., None],
+        template: str,
+        data: dict[str, Any],
+        output: str,
+        *,
+        template_basepath: Path | None = None,
+        **more: Any,
+    ) -> None:
+        """As ``rosidl_pycommon.expand_template``."""
+        if template_basepath is None or 'interface_path' not in data:  # for the whole package
+            expand(template, data, output, template_basepath=template_basepath, **more)
+            return
+        status = (template_basepath / template).stat()
+        others = {name: data[name] for name in data.keys() - {'content', 'type_source_file'}}
+        key = records.digest(
+            f'{template_basepath} {template} {status.st_size} {status.st_mtime_ns}',
+            Path(self._idl, data['interface_path']).read_bytes(),
+            Path(data['type_source_file']).read_bytes(),
+            repr(sorted(others.items())),
+        )
+        if self._made_of.get(output) != key or not Path(output).exists():
+            self._made_of.pop(output, None)
+            expand(template, data, output, template_basepath=template_basepath, **more)
+            self._made_of[output] = key
+
+
 def write_code(package: GeneratedPackage, generator: str) -> None:
     """Run one of :data:`CODE_GENERATORS`."""
+    with ExpandedTemplates(package, generator).used():
+        _write_code(package, generator)
+
+
+def _write_code(package: GeneratedPackage, generator: str) -> None:
     if generator == 'rosidl_generator_py':
         from rosidl_generator_py import generate_py
 
@@ -205,5 +306,4 @@ def _write_visibility_header(package: GeneratedPackage, generator: str) -> None:
         return
     text = template.read_text().replace('@PROJECT_NAME_UPPER@', package.name.upper())
     header = package.generated(generator) / 'msg' / name
-    header.parent.mkdir(exist_ok=True)
-    header.write_text(text.replace('@PROJECT_NAME@', package.name))
+    records.write_if_different(header, text.replace('@PROJECT_NAME@', package.name))

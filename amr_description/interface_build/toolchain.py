@@ -20,7 +20,7 @@ import sys
 import sysconfig
 import tempfile
 
-from interface_build import BuildError, CompilerError
+from amr_description.errors import CompilerError, InterfaceBuildError
 
 # Those of CMake's release builds, but for its -O2: it takes 1.6 times as long to compile, and no
 # message is serialised any faster.
@@ -46,10 +46,10 @@ class Toolchain:
 
 
 def python_headers() -> Path:
-    """Return the folder of ``Python.h``; raise :class:`BuildError` when this Python has none."""
+    """Return the folder of ``Python.h``; raise InterfaceBuildError when there is none."""
     folder = Path(sysconfig.get_path('include'))
     if not (folder / 'Python.h').is_file():
-        raise BuildError(
+        raise InterfaceBuildError(
             f'{folder}/Python.h not found: this Python ({sys.executable}) came without its C'
             ' headers; install them (Debian, Ubuntu: python3.12-dev; Fedora: python3.12-devel) or'
             ' use another Python (uv python install 3.12)'
