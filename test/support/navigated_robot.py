@@ -126,7 +126,9 @@ class NavigationServer:
         return result
 
     def destroy(self):
-        self._action.destroy()
+        action, self._action = self._action, None
+        if action is not None:
+            action.destroy()
 
 
 class Navigating:

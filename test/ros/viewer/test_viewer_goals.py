@@ -96,6 +96,8 @@ class Graph:
         for thread in self._threads:
             thread.join()
         self.loop.close()
+        # destroy_node leaves it, and the next test would take it for its own.
+        self.server.destroy()
         for node in self.nodes:
             node.destroy_node()
         self._context.try_shutdown()
