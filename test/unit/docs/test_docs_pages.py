@@ -65,6 +65,16 @@ def test_the_front_page_is_one():
     assert text.count('\n') <= 106
     assert text.index('scripts/run ') < text.index('scripts/test ') < text.index('## Drive it')
     assert 'What is not here' in text
+    first_screen = text[: text.index('## ')]
+    doors = (
+        '[Learn](#learn)',
+        '[My robot](#my-robot)',
+        '[CI](#ci)',
+        'docs/images/',
+        'scripts/test ',
+    )
+    assert [each for each in doors if each not in first_screen] == []
+    assert first_screen.count('\n') <= 30
 
 
 def test_the_picture_moves():
