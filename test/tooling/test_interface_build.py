@@ -255,3 +255,20 @@ def test_public_messages_have_their_public_hashes(tmp_path, monkeypatch):
             if name.startswith(f'{source.name}/')
         }
     assert found == public_interfaces.HASHES
+
+
+def test_a_parser_that_is_missing_is_one_line_with_the_way_to_get_it(tmp_path, monkeypatch):
+    """As after an installation by pip alone: nodes start faster without it."""
+    monkeypatch.setattr(sys, 'prefix', str(tmp_path))
+    monkeypatch.setattr(sys, 'path', [])
+    monkeypatch.setattr('importlib.util.find_spec', lambda _name: None)
+    with pytest.raises(InterfaceBuildError) as caught:
+        generators.find_parser()
+    wanted = f'-m pip install --target {tmp_path}/lib/interface_build lark-parser==0.12.0'
+    assert str(caught.value).endswith(wanted)
+    assert '\n' not in str(caught.value)
+
+
+def test_set_up_installs_the_parser_where_builds_look_for_it():
+    assert interface_wheel.PARSER == generators.PARSER
+    assert (Path(sys.prefix) / interface_wheel.PARSER_FOLDER / 'lark').is_dir()

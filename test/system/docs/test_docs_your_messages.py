@@ -79,13 +79,13 @@ def test_a_message_of_ones_own(tmp_path):
 
 @pytest.mark.long
 def test_a_wheel_without_colcon(tmp_path):
-    """The last section; the wheel goes into a folder, not into the environment of all tests."""
+    """The last section; the wheel goes into a prefix, not into the environment of all tests."""
     package = tmp_path / 'ros2_ws/src/my_msgs'
     public_interfaces.write_package(package, 'my_msgs', {'msg/Sphere.msg': 'float64 radius\n'})
     text = (package / 'package.xml').read_text().replace('1.2.3', '0.0.0')
     (package / 'package.xml').write_text(text)
     target = tmp_path / 'target'
-    book = PAGE.text.replace('pip install', f'pip install --no-index --target {target}')
+    book = PAGE.text.replace('pip install', f'pip install --no-index --prefix {target}')
     with newcomer(book, tmp_path) as shell:
         said = shell.run('ros2 run amr_description build_interfaces')
         assert said.count('.whl') == 2
@@ -93,7 +93,7 @@ def test_a_wheel_without_colcon(tmp_path):
     assert (target / 'share/my_msgs/msg/Sphere.json').exists()
     environment = {
         **os.environ,
-        'PYTHONPATH': str(target),
+        'PYTHONPATH': f'{target}/lib/python3.12/site-packages',
         'LD_LIBRARY_PATH': f'{target}/lib:{os.environ.get("LD_LIBRARY_PATH", "")}',
     }
     code = 'from my_msgs.msg import Sphere; Sphere.__import_type_support__(); print(Sphere())'
