@@ -55,6 +55,7 @@ from amr_description.navigation.ros.ekf_outputs import (
     Outputs,
     transform_of_message,
 )
+from amr_description.navigation.ros.messages import is_place
 from amr_description.ros.messages import nanoseconds, vector_of
 from amr_description.ros.parameters import PUBLISHER_POLICIES
 from amr_description.ros.rclpy_internals import parameter_overrides, set_parameter_override
@@ -223,6 +224,12 @@ class EkfNode(Node):
     # --- services -----------------------------------------------------------------------------
 
     def _on_set_pose(self, message: PoseWithCovarianceStamped) -> None:
+        if not (is_place(message.pose.pose) and np.isfinite(message.pose.covariance).all()):
+            self.get_logger().error(
+                'set_pose: its position or its covariance is no number, or too large: the pose '
+                'stays as it is'
+            )
+            return
         values = self._reader.values_of_pose(message)
         if values is None:
             self.get_logger().error(

@@ -260,14 +260,23 @@ def test_services(filter_with):
     assert len(graph.odometry) > count
 
 
-def test_set_pose_by_topic_in_an_unknown_frame_changes_nothing(filter_with):
+@pytest.mark.parametrize(
+    ('frame', 'x', 'reason'),
+    [
+        ('moon', 0.0, "there is no transform from 'moon' to 'odom'"),
+        ('odom', math.nan, 'its position or its covariance is no number, or too large'),
+        ('odom', 1e300, 'its position or its covariance is no number, or too large'),
+    ],
+)
+def test_a_pose_that_cannot_be_set_changes_nothing(filter_with, frame, x, reason):
     graph = filter_with(odom0='odom', odom0_config=WHEELS)
     graph.send('odom', odometry(vx=1.0), 1.0)
     graph.filtered(1.0)
     pose = PoseWithCovarianceStamped()
-    pose.header.frame_id = 'moon'
+    pose.header.frame_id = frame
+    pose.pose.pose.position.x = x
     graph.send('set_pose', pose)
-    graph.said("set_pose: there is no transform from 'moon' to 'odom': the pose stays as it is")
+    graph.said(f'set_pose: {reason}: the pose stays as it is')
     graph.send('odom', odometry(vx=1.0), 2.0)
     assert graph.filtered(2.0).pose.pose.position.x == pytest.approx(1.0, abs=1e-6)
 

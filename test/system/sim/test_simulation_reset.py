@@ -278,6 +278,8 @@ def test_ten_resets_in_lock_step_lose_nothing_and_begin_at_exactly_zero(sim, pub
         assert first.twist.twist.linear.x == 0.0
         # It drives at the next reset, whenever in these ticks the first command has come.
         sim.wait(lambda: drives_after_a_tick(sim, driver))
+        # A publisher that sleeps from before a reset until time is later again sees none.
+        sim.wait(lambda: driver.heard[OF_THE_PUBLISHER][-1] > LONGEST_DELAY + 10 * MS)
 
 
 def drives_after_a_tick(sim, driver):
