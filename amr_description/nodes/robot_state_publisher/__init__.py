@@ -83,6 +83,11 @@ from amr_description.ros.topic_thread import TopicThread
 
 _WARNING_PERIOD = 5.0  # s between two equal warnings
 _LEAST_FREQUENCY = 1e-3  # Hz
+_RESET_GAP = NANOSECONDS // 10
+"""
+ns by which the stamps of one publisher go back at a reset. It is seen by the clock, too, unless
+that is past the last time that was looked at already, after a rest on a busy machine.
+"""
 _QUEUE = 100  # joint states; at 1 kHz 50 come in the longest rest
 
 
@@ -130,6 +135,7 @@ class RobotStatePublisher(PollingNode):
         self._lock = threading.Lock()  # of all that joint states and parameters have in common
         self._heads = HeadReader()
         self._time_jumps = TimeJumpFilter()
+        self._latest = 0  # stamp, ns
         self._description = self.create_publisher(String, 'robot_description', LATCHED)
         self._static = self.create_publisher(
             TFMessage,
@@ -244,6 +250,9 @@ class RobotStatePublisher(PollingNode):
         try:
             head = self._heads.read(data)
             stamp = head.stamp or now
+            before, self._latest = self._latest, stamp
+            if stamp < before - _RESET_GAP and self._joint_states.publisher_count == 1:
+                self._throttle.forget()
             if self._time_jumps.is_stale(stamp):
                 return False
             if not (self._throttle.admit(head.names, stamp) or self._settings.ignore_timestamp):

@@ -235,6 +235,15 @@ def test_time_going_back_starts_anew(start, listener, capfd):
     assert warning in capfd.readouterr().err
 
 
+def test_stamps_that_go_back_start_anew_whatever_the_clock(start, listener):
+    """The clock is read by what comes; after a rest it may be past its last time already."""
+    node = start(TWO_LINKS.format(kind='continuous', x=5), use_sim_time=True)
+    listener.set_clock(node, Time(nanosec=100_000_000))
+    listener.hear((0, 400_000_000))
+    (transform,) = listener.hear((0, 10_000_000))
+    assert transform.header.stamp.nanosec == 10_000_000
+
+
 def test_what_was_on_its_way_when_time_went_back_holds_nothing_up(start, listener):
     """A message of before, in the middle of the times that come again."""
     node = start(TWO_LINKS.format(kind='continuous', x=5), use_sim_time=True)
