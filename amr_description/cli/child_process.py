@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a child process to its end like a shell: with the terminal, signals and exit code."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 import os
 import signal
 
@@ -20,9 +20,15 @@ _SENT_BY_KERNEL = 0x80  # SI_KERNEL of siginfo_t: the terminal's Ctrl-C
 _GRACE = 2.0  # s
 
 
-def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
+def run_to_end(
+    command: Sequence[str],
+    environment: Mapping[str, str],
+    blocked: Set[signal.Signals] = frozenset(),
+) -> int:
     """
     Run a command with our stdin, stdout and stderr; return its exit code.
+
+    ``blocked``: signals that stay pending until the command unblocks them, as it is made to do.
 
     The exit code is minus the number of a signal that ended it. A signal from the terminal reaches
     the child by itself, as it is in the same process group. A signal that a process sends to us is
@@ -35,7 +41,7 @@ def run_to_end(command: Sequence[str], environment: Mapping[str, str]) -> int:
     watched = _FORWARDED | {signal.SIGCHLD}
     previous = signal.pthread_sigmask(signal.SIG_BLOCK, watched)
     try:
-        pid = _start(command, environment, previous)
+        pid = _start(command, environment, previous | blocked)
         return os.waitstatus_to_exitcode(_serve_signals(pid, watched))
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, previous)

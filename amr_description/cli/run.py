@@ -18,6 +18,7 @@ import os
 from pathlib import Path
 import shlex
 import shutil
+import signal
 import sys
 
 from amr_description.errors import AmrError, UsageError
@@ -45,6 +46,7 @@ def main(args: Namespace) -> int:
 
     (The shell sees the last byte of that: 254 after Ctrl-C.)
     """
+    from amr_description.ament_index import is_own
     from amr_description.bringup.environment import child_environment
     from amr_description.cli.child_process import run_to_end
 
@@ -54,7 +56,10 @@ def main(args: Namespace) -> int:
     if 'PYTHONUNBUFFERED' not in os.environ:  # is for pipes; this child may have a terminal
         environment.pop('PYTHONUNBUFFERED', None)
     sys.stdout.flush()
-    code = run_to_end(command, environment)
+    # Ctrl-C while it is still being imported waits until entry.py unblocks it: Python itself would
+    # print a traceback.
+    unblocks = not args.prefix and executable.parent.name == _OURS and is_own(executable)
+    code = run_to_end(command, environment, {signal.SIGINT} if unblocks else frozenset())
     if code:
         print(f'[ros2run]: {_end(code)}')
     return code

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """``ros2 run``: what is found, what the child gets, how it ends."""
 
+from argparse import ArgumentParser
 import os
 import signal
 import sys
@@ -10,6 +11,7 @@ from fixtures.cli.commands import ros2, started
 import pytest
 
 from amr_description.ament_index import executables_of, package_prefix, packages
+from amr_description.cli import child_process, run as run_verb
 from amr_description.cli.run import _find as find_executable, STAND_INS
 from amr_description.errors import AmrError
 
@@ -231,6 +233,35 @@ def test_a_stand_in_that_does_not_exist_yet_is_told(only_ours):
 
 def test_without_us_a_stand_in_is_not_found(run):
     assert run('py_pubsub', 'talker').stderr == "Package 'py_pubsub' not found\n"
+
+
+@pytest.mark.parametrize(
+    ('words', 'blocked'),
+    [
+        (['amr_description', 'talker'], {signal.SIGINT}),
+        (['--prefix', 'nice', 'amr_description', 'talker'], set()),
+        (['toys', 'clean'], set()),
+    ],
+)
+def test_ctrl_c_waits_until_a_program_of_ours_is_imported(prefix, monkeypatch, words, blocked):
+    """It would print a traceback; ``entry.py`` unblocks it."""
+    monkeypatch.setenv('AMENT_PREFIX_PATH', f'{prefix}:{os.environ["AMENT_PREFIX_PATH"]}')
+    given = []
+    monkeypatch.setattr(child_process, 'run_to_end', lambda *args: given.append(args) or 0)
+    parser = ArgumentParser()
+    run_verb.add_arguments(parser)
+    assert run_verb.main(parser.parse_args(words)) == 0
+    [(_, _, found)] = given
+    assert found == blocked
+
+
+def test_what_is_blocked_is_so_in_the_child_alone(capfd):
+    code = 'import signal; print(signal.pthread_sigmask(signal.SIG_BLOCK, []))'
+    command = [sys.executable, '-c', code]
+    assert child_process.run_to_end(command, os.environ, {signal.SIGINT}) == 0
+    assert child_process.run_to_end(command, os.environ) == 0
+    assert capfd.readouterr().out == '{<Signals.SIGINT: 2>}\nset()\n'
+    assert signal.pthread_sigmask(signal.SIG_BLOCK, []) == set()
 
 
 def test_ctrl_c_is_the_childs(prefix):
