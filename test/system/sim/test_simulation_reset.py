@@ -260,8 +260,6 @@ def tick(sim, driver, stamp):
     sim.do(StepSimulation, steps=TICK_STEPS)
     due = [name for name, stamps in EXPECTED.items() if stamp in stamps]
     sim.wait(lambda: all(driver.heard[name][-1:] == [stamp] for name in due))
-    if stamp >= LONGEST_DELAY:
-        sim.wait(lambda: driver.heard[OF_THE_PUBLISHER][-1:] >= [stamp - LONGEST_DELAY])
 
 
 def test_ten_resets_in_lock_step_lose_nothing_and_begin_at_exactly_zero(sim, publisher, driver):
@@ -278,8 +276,13 @@ def test_ten_resets_in_lock_step_lose_nothing_and_begin_at_exactly_zero(sim, pub
         assert first.twist.twist.linear.x == 0.0
         # It drives at the next reset, whenever in these ticks the first command has come.
         sim.wait(lambda: drives_after_a_tick(sim, driver))
-        # A publisher that sleeps from before a reset until time is later again sees none.
-        sim.wait(lambda: driver.heard[OF_THE_PUBLISHER][-1] > LONGEST_DELAY + 10 * MS)
+        # The publisher of the wheels' transforms, a process of its own, goes on as time does.
+        sim.wait(lambda: publishes_after_a_tick(sim, driver))
+
+
+def publishes_after_a_tick(sim, driver):
+    sim.do(StepSimulation, steps=TICK_STEPS)
+    return driver.heard[OF_THE_PUBLISHER][-1:] > [LONGEST_DELAY]
 
 
 def drives_after_a_tick(sim, driver):
