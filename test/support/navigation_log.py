@@ -3,6 +3,7 @@
 """What Nav2 hears of a drive, recorded with its QoS, and what is wrong with it."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import inf
@@ -35,7 +36,8 @@ class NavigationLog:
     transforms: list[StampedTransform] = field(default_factory=list)
     static_transforms: list[StampedTransform] = field(default_factory=list)
 
-    def record(self, node: Node) -> None:
+    @contextmanager
+    def recording(self, node: Node) -> Iterator[None]:
         """Subscribe as Nav2's costmaps, transform listeners, odometry smoother and clocks do."""
 
         def hear_tf(message: TFMessage) -> None:
@@ -48,11 +50,35 @@ class NavigationLog:
             self.clock.append(nanoseconds(message.clock))
 
         subscribe = node.create_subscription
-        subscribe(LaserScan, '/scan', self.scans.append, qos_profile_sensor_data)
-        subscribe(TFMessage, '/tf', hear_tf, 100)
-        subscribe(TFMessage, '/tf_static', hear_static, TF_STATIC)
-        subscribe(Odometry, '/odom', self.odometry.append, qos_profile_system_default)
-        subscribe(Clock, '/clock', hear_clock, CLOCK)
+        subscriptions = (
+            subscribe(LaserScan, '/scan', self.scans.append, qos_profile_sensor_data),
+            subscribe(TFMessage, '/tf', hear_tf, 100),
+            subscribe(TFMessage, '/tf_static', hear_static, TF_STATIC),
+            subscribe(Odometry, '/odom', self.odometry.append, qos_profile_system_default),
+            subscribe(Clock, '/clock', hear_clock, CLOCK),
+        )
+        yield
+        for each in subscriptions:
+            node.destroy_subscription(each)
+
+    def is_complete_at(self, stamp: int) -> bool:
+        """
+        Return whether a scan was heard, what came with it, and the transforms of all of it.
+
+        Args:
+            stamp: Of the scan, ns.
+        """
+        if not (self.scans and self.odometry and self.clock):
+            return False
+        odometry = nanoseconds(self.odometry[-1].header.stamp)
+        if min(nanoseconds(self.scans[-1].header.stamp), odometry, self.clock[-1]) < stamp:
+            return False
+        return self._has_moved('odom', stamp) and self._has_moved('base_footprint', odometry)
+
+    def _has_moved(self, child: str, stamp: int) -> bool:
+        return any(
+            each.child == child and each.time >= stamp for each in reversed(self.transforms)
+        )
 
     def buffer(self) -> BufferCore:
         """Return all transforms, as a listener with a long memory has them."""
