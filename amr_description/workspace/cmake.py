@@ -18,13 +18,17 @@ import subprocess
 import sys
 
 from amr_description.workspace.cmake_errors import Missing, missing, package_of
-from amr_description.workspace.stand_ins import compiles_nothing, known_beforehand, stand_in
+from amr_description.workspace.cmake_stubs import (
+    compiles_nothing,
+    write_expected_stubs,
+    write_stub,
+)
 
 _COMPILERS = {'C': ('cc', 'gcc', 'clang'), 'CXX': ('c++', 'g++', 'clang++')}
 _FAILED = re.compile(r'^(FAILED: |ninja: error: |CMake Error)', re.MULTILINE)
 _FAULTS = 'rosidl_generate_interfaces/*/faults'
 _INTERRUPTED = 130
-_NONE = '/bin/false'  # stands in for a compiler
+_NO_PROGRAM = '/bin/false'  # given to CMake where there is no compiler
 _NO_FEATURES = 'no known features'
 _NO_COMPILER = """\
 error: to compile C or C++ takes a compiler, and there was none on the PATH (Debian, Ubuntu: apt \
@@ -54,7 +58,7 @@ def main(cmake: str, arguments: Sequence[str]) -> int:
 def _configure(command: list[str], source: str, compilers: list[str]) -> int:
     """Configure the build of the package in ``source``, without what it can do without."""
     folder, can_do_without = Path(source), compiles_nothing(Path(source))
-    more = [*compilers, *(known_beforehand(folder, _stand_ins()) if can_do_without else ())]
+    more = [*compilers, *(write_expected_stubs(folder, _stubs()) if can_do_without else ())]
     notes = ''
     while True:
         code, said = _run([*command, *more])
@@ -92,12 +96,12 @@ def _without(lacks: Missing, source: Path, can_do_without: bool) -> tuple[str | 
             '-DBUILD_TESTING=OFF',
             f'{package} is built without its tests, which need {lacks.name!r}: that is not here\n',
         )
-    return stand_in(lacks.name, _stand_ins()) if can_do_without else None, ''
+    return write_stub(lacks.name, _stubs()) if can_do_without else None, ''
 
 
-def _stand_ins() -> Path:
-    """Return the folder for them: colcon starts CMake in that of the build."""
-    return Path('stand_ins').resolve()
+def _stubs() -> Path:
+    """Return the folder for stubs: colcon starts CMake in that of the build."""
+    return Path('stubs').resolve()
 
 
 def _build(command: list[str], folder: str) -> int:
@@ -119,7 +123,7 @@ def _build(command: list[str], folder: str) -> int:
         failed = _FAILED.search(text)
         if failed:
             text = text[failed.start() :]
-        if text.startswith('FAILED: ') and _cached(folder, 'CMAKE_C(XX)?_COMPILER') == _NONE:
+        if text.startswith('FAILED: ') and _cached(folder, 'CMAKE_C(XX)?_COMPILER') == _NO_PROGRAM:
             text = _NO_COMPILER
         faults = sorted(Path(folder).glob(_FAULTS))  # interface_build/cmake_target.py writes them
         text = ''.join(file.read_text() for file in faults) or text
@@ -155,7 +159,7 @@ def _without_compiler(arguments: Sequence[str]) -> list[str]:
             or any(map(shutil.which, names))
         ):
             continue
-        more += [f'-D{variable}={_NONE}', f'-D{variable}_FORCED=TRUE']
+        more += [f'-D{variable}={_NO_PROGRAM}', f'-D{variable}_FORCED=TRUE']
     return more
 
 

@@ -9,7 +9,7 @@ import sys
 import pytest
 from support.paths import ROOT
 
-from amr_description.workspace.stand_ins import compiles_nothing, stand_in
+from amr_description.workspace.cmake_stubs import compiles_nothing, write_stub
 
 LACKS = """\
 CMake Error at CMakeLists.txt:{line} (find_package):
@@ -114,7 +114,7 @@ def test_a_package_of_files_is_built_without_libraries_and_the_tools_of_its_test
         "CMake Warning\nwants_urdf is built without its tests, which need 'rostest': that is not"
         ' here\n'
     )
-    assert (tmp_path / 'build/stand_ins/urdf/urdfConfig.cmake').is_file()
+    assert (tmp_path / 'build/stubs/urdf/urdfConfig.cmake').is_file()
 
 
 def test_what_ninja_says_of_a_failure_is_seen(cmake):
@@ -167,8 +167,8 @@ def test_what_the_manifest_names_is_known_beforehand(cmake, package, tmp_path):
     (tmp_path / 'prefix/share/there/cmake').mkdir(parents=True)
     (tmp_path / 'prefix/share/there/cmake/thereConfig.cmake').touch()
     _, log, _ = cmake(source, AMENT_PREFIX_PATH=str(tmp_path / 'prefix'))
-    assert log == f'started: {source} -Durdf_DIR={tmp_path}/build/stand_ins/urdf\n'
+    assert log == f'started: {source} -Durdf_DIR={tmp_path}/build/stubs/urdf\n'
 
 
-def test_what_brings_commands_has_no_stand_in(tmp_path):
-    assert [stand_in(name, tmp_path) for name in ('ament_x', 'rosidl_y', 'catkin')] == [None] * 3
+def test_what_brings_commands_has_no_stub(tmp_path):
+    assert [write_stub(name, tmp_path) for name in ('ament_x', 'rosidl_y', 'catkin')] == [None] * 3

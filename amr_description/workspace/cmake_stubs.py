@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What stands in for a library, in packages that compile nothing.
+Empty packages of CMake in place of libraries, for packages that compile nothing.
 
 Many packages of descriptions, meshes and launch files say ``find_package(urdf REQUIRED)`` and use
 nothing of it. They need no C++ to be installed.
@@ -19,7 +19,7 @@ _USE = re.compile(
     r'FetchContent_\w+)\s*\(',
     re.MULTILINE,
 )
-# These bring commands of CMake, which a stand-in would not have.
+# These bring commands of CMake, which a stub would not have.
 _OF_THE_BUILD = re.compile(r'ament_|rosidl_|catkin$|.*_cmake$|.*_cmake_module$')
 _FIND = re.compile(r'^[^#\n]*\bfind_package\s*\(\s*(\w+)', re.MULTILINE)
 _PLACES = ('share/{0}/cmake', 'lib/cmake/{0}')
@@ -46,16 +46,17 @@ def _rules(source: Path) -> Iterator[Path]:
                 yield Path(folder, name)
 
 
-def stand_in(name: str, folder: Path) -> str | None:
+def write_stub(name: str, folder: Path) -> str | None:
     """
-    Write what ``find_package(name)`` finds then; return the argument of CMake for it.
+    Write an empty package, which ``find_package(name)`` is to find.
 
     Args:
         name: of the package that is not here.
-        folder: where to.
+        folder: where to write it.
 
     Returns:
-        None: what this package has cannot be done without.
+        The argument of CMake by which it is found; None: a stub would not do, as the package
+        brings commands of CMake.
     """
     if _OF_THE_BUILD.match(name):
         return None
@@ -66,17 +67,21 @@ def stand_in(name: str, folder: Path) -> str | None:
     return f'-D{name}_DIR={place}'
 
 
-def known_beforehand(source: Path, folder: Path) -> list[str]:
+def write_expected_stubs(source: Path, folder: Path) -> list[str]:
     """
-    Return the arguments of CMake for what a package that compiles nothing asks for in vain.
+    Write the stubs that a package which compiles nothing is sure to need.
 
-    Each that CMake would have to find out about costs a second. So these are the packages of ROS,
-    which the manifest names, too, that are in no prefix; of another library that is somewhere on
-    the machine nothing would be used either.
+    Each failed run of CMake, which would show that one is missing, takes a second. Sure to be
+    needed are those for packages of ROS, which the manifest names as well, that are in no prefix.
+    Where such a library is installed elsewhere, its stub is used all the same: the package uses
+    nothing of it.
 
     Args:
         source: the folder of the package.
-        folder: where to write the stand-ins.
+        folder: where to write the stubs.
+
+    Returns:
+        The arguments of CMake by which they are found.
     """
     try:
         rules = (source / 'CMakeLists.txt').read_text(encoding='utf-8', errors='replace')
@@ -94,7 +99,7 @@ def known_beforehand(source: Path, folder: Path) -> list[str]:
         for name in dict.fromkeys(_FIND.findall(rules.partition('BUILD_TESTING')[0]))
         if re.search(rf'>\s*{name}\s*<', manifest) and not _is_in(prefixes, name)
     )
-    return [argument for name in lacking if (argument := stand_in(name, folder))]
+    return [argument for name in lacking if (argument := write_stub(name, folder))]
 
 
 def _is_in(prefixes: Iterable[str], name: str) -> bool:
