@@ -80,7 +80,7 @@ class Log:
 
 type Reaction = None | Shutdown | Log | Member | Sequence[Log | Shutdown | Member]
 type ExitHandler = Callable[[Exited], Reaction]
-type StopHandler = Callable[[Stopping], Sequence[Log] | None]
+type StopHandler = Callable[[Stopping], Log | Sequence[Log] | None]
 type LineHandler = Callable[[str], Reaction]
 type StateHandler = Callable[[StackState], Reaction]
 
@@ -125,12 +125,21 @@ def call_handler[T](name: str, handler: Callable[[T], Reaction], event: T) -> Ha
         return HandlerResult(shutdown=Shutdown(describe_failure(name, error), exit_code=1))
     if reaction is None:
         return HandlerResult()
-    parts: list[Any] = [*reaction] if isinstance(reaction, list | tuple) else [reaction]
+    parts = _parts(reaction)
     return HandlerResult(
         members=tuple(each for each in parts if not isinstance(each, Shutdown | Log)),
         shutdown=next((each for each in parts if isinstance(each, Shutdown)), None),
-        lines=tuple(each for each in parts if isinstance(each, Log)),
+        lines=tuple(lines_of(reaction)),
     )
+
+
+def lines_of(returned: object) -> list[Log]:
+    """Return the lines in what a handler has returned, whatever else that is."""
+    return [each for each in _parts(returned) if isinstance(each, Log)]
+
+
+def _parts(returned: object) -> list[Any]:
+    return [*returned] if isinstance(returned, list | tuple) else [returned]
 
 
 def describe_failure(name: str, error: BaseException) -> str:

@@ -26,7 +26,7 @@ from amr_description.bringup.description import Node, Stack
 from amr_description.bringup.environment import child_environment
 from amr_description.bringup.fork_server import ForkServer
 from amr_description.bringup.graph_watcher import COMMAND, ExternalState, GraphWatch
-from amr_description.bringup.handlers import describe_failure, Stopping
+from amr_description.bringup.handlers import describe_failure, lines_of, Stopping
 from amr_description.bringup.lifeline import Lifeline
 from amr_description.bringup.process import Child, RunningProcess, signal_blocked
 from amr_description.bringup.reporter import Reporter
@@ -175,8 +175,8 @@ class Orchestrator:
             self._reporter.shutdown(self._scheduler.shutdown)
         for handler in self._stop_handlers:
             try:
-                lines = handler(Stopping(self._result, self._stop_reason))
-                self._scheduler.lines += lines or ()
+                returned = handler(Stopping(self._result, self._stop_reason))
+                self._scheduler.lines += lines_of(returned)
             except (Exception, SystemExit) as error:  # must not keep processes alive
                 self._reporter.handler_failed(describe_failure('on_shutdown', error))
         self._reporter.lines(self._scheduler)

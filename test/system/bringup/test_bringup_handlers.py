@@ -155,6 +155,8 @@ def test_a_handler_stops_the_stack(tmp_path, reaction, code, told):
         assert bringup.end() == code
         assert re.search(told, bringup.output)
         assert note.read_text() == f'the end with {code}'
+        assert ('on_shutdown failed' in bringup.output) == (reaction == 'raise')
+        assert ('[INFO] [launch.user]: parked' in bringup.output) == (reaction == 'shutdown')
         assert bringup.left() == []
 
 
