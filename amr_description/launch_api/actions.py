@@ -17,6 +17,7 @@ from amr_description.launch_api.substitutions import (
     SomeSubstitutions,
     text_of,
 )
+from amr_description.text import truth
 
 
 class SetLaunchConfiguration(Action):
@@ -128,7 +129,7 @@ class AppendEnvironmentVariable(SetEnvironmentVariable):
         if before := context.environment.get(name):
             prepends = self.prepend
             if not isinstance(prepends, bool):
-                prepends = text_of(context, prepends).lower() in ('true', '1')
+                prepends = truth(text_of(context, prepends))
             parts = [*parts, before] if prepends else [before, *parts]
         context.environment[name] = perform_substitutions(context, self.separator).join(parts)
 

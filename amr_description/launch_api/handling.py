@@ -24,6 +24,7 @@ from amr_description.bringup.conditions import (
     StackState,
     started,
 )
+from amr_description.bringup.description import Node as StackNode
 from amr_description.bringup.handlers import EventHandler, Level, Stopping
 from amr_description.errors import BringupError
 from amr_description.launch_api.actions import EmitEvent, Log, TimerAction
@@ -91,6 +92,7 @@ class Translating(Protocol):
 
     context: LaunchContext
     when: Condition | None
+    nodes: list[StackNode]
     started: dict[Action, Started]
     event_handlers: list[EventHandler]
     notes: list[tuple[Level, str]]
@@ -227,12 +229,17 @@ class Handling:
                 continue
             now = state.nodes[node]
             if isinstance(handler, OnProcessStart) and now.started:
-                return ProcessStarted(action, node.executable)
+                return ProcessStarted(action, self._name_of(node))
             if now.returncode is not None:
                 if isinstance(handler, OnExecutionComplete):
                     return ExecutionComplete(action)
-                return ProcessExited(action, node.executable, returncode=now.returncode)
+                return ProcessExited(action, self._name_of(node), returncode=now.returncode)
         return ExecutionComplete(actions[0])
+
+    def _name_of(self, node: NodeRef) -> str:
+        """Return the name of a process on the screen, once all that is started is known."""
+        number = 1 + [*map(id, self._translation.nodes)].index(id(node))
+        return f'{node.executable}-{number}'
 
     def _listen(
         self, handler: OnProcessIO, action: Action, made: Started, context: LaunchContext
@@ -240,7 +247,7 @@ class Handling:
         listeners = getattr(made.node, 'on_output', None)
         if made.node is None or not isinstance(listeners, Listeners):
             return
-        name = made.node.executable
+        name = self._name_of(made.node)
 
         def on_line(line: str) -> handlers.Reaction:
             event = ProcessIO(action, name, text=f'{line}\n'.encode())

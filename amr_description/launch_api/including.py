@@ -3,6 +3,7 @@
 """IncludeLaunchDescription, and how a launch file is read: Python, or one of ``LOADERS``."""
 
 from collections.abc import Callable, Iterable, Mapping
+import importlib.machinery
 import importlib.util
 from pathlib import Path
 import sys
@@ -56,9 +57,9 @@ def read(path: Path) -> LaunchDescription:
         return loader(path)
     except (BringupError, RecursionError):
         raise
+    except AmrError as error:
+        raise BringupError(user_errors.describe(error)) from error
     except Exception as error:
-        if isinstance(error, AmrError):
-            raise BringupError(user_errors.describe(error)) from error
         raise BringupError(f"'{path}' failed: {user_errors.describe(error)}") from error
 
 

@@ -11,7 +11,7 @@ from amr_description.bringup.description import Stack
 from amr_description.bringup.handlers import Level
 from amr_description.errors import AmrError, BringupError
 from amr_description.launch_api import including, markup
-from amr_description.launch_api.context import LaunchContext, NAMESPACE, PARAMETERS, REMAPPINGS
+from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.descriptions import (
     declared_arguments,
     LaunchDescription,
@@ -27,7 +27,6 @@ from amr_description.launch_api.translation import translated
 from amr_description.text import suggestion
 
 including.LOADERS.update(markup.LOADERS)
-_OF_LAUNCH_ROS = (NAMESPACE, PARAMETERS, REMAPPINGS)
 
 
 class LaunchFile:
@@ -64,10 +63,7 @@ class LaunchFile:
         known = {each.name for each in declared} | context.read
         unknown = [name for name in given if name not in known]
         notes: list[tuple[Level, str]] = [
-            (
-                'WARNING',
-                f"it declares no argument '{name}'{suggestion(name, sorted(known))}",
-            )
+            ('WARNING', f"it declares no argument '{name}'{suggestion(name, sorted(known))}")
             for name in unknown
         ]
         return replace(stack, notes=[*notes, *stack.notes], patience=None)

@@ -271,6 +271,8 @@ def _action(element: Element) -> Action:
     holds, fails = element.optional('if'), element.optional('unless')
     made = _TAGS[tag](element)
     made.where = element.where
+    if holds is not None and fails is not None:
+        raise refusal(f'<{element.tag}> has both if and unless: it takes one', element.where)
     if holds is not None:
         made.condition = IfCondition(holds)
     elif fails is not None:

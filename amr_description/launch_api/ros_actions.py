@@ -58,9 +58,7 @@ class SetUseSimTime(SetParameter):
 class SetParametersFromFile(Action):
     """A parameter file for the nodes after it."""
 
-    def __init__(
-        self, filename: SomeSubstitutions | ParameterFile, node_name: Any = None, **kwargs: Any
-    ) -> None:
+    def __init__(self, filename: SomeSubstitutions | ParameterFile, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.filename = filename
 

@@ -27,6 +27,10 @@ type SomeSubstitutions = Any
 """A text, a substitution, or a list of them, as in launch."""
 
 
+ON_STDERR = ('fail', 'ignore', 'warn', 'capture')
+"""What a Command may do about what its program writes to stderr."""
+
+
 class SubstitutionFailure(BringupError):  # noqa: N818 - as in launch
     """A substitution has no text."""
 
@@ -225,7 +229,7 @@ class Command(Substitution):
     def perform(self, context: LaunchContext) -> str:
         text = perform_substitutions(context, self.command)
         on_stderr = perform_substitutions(context, self.on_stderr)
-        if on_stderr not in ('fail', 'ignore', 'warn', 'capture'):
+        if on_stderr not in ON_STDERR:
             raise self.failure(
                 "expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'"
             )

@@ -14,13 +14,8 @@ from amr_description.text import did_you_mean
 type Argument = list[Substitution]
 
 
-def _with_default(make: Callable[..., Substitution], name: str) -> Callable[..., Substitution]:
-    """Return a function whose second argument is the default."""
-
-    def made(first: Argument, second: Argument | None = None) -> Substitution:
-        return make(first) if second is None else make(first, **{name: second})
-
-    return made
+def _env(name: Argument, default: Argument | None = None) -> Substitution:
+    return substitutions.EnvironmentVariable(name, default_value=default)
 
 
 def _var(name: Argument, default: Argument | None = None) -> Substitution:
@@ -38,7 +33,7 @@ _MAKERS: dict[str, Callable[..., Substitution]] = {
     'any': logic.AnySubstitution,
     'command': _command,
     'dirname': substitutions.ThisLaunchFileDir,
-    'env': _with_default(substitutions.EnvironmentVariable, 'default_value'),
+    'env': _env,
     'equals': logic.EqualsSubstitution,
     'eval': logic.PythonExpression,
     'exec-in-pkg': substitutions.ExecutableInPackage,
@@ -127,7 +122,8 @@ def _substitution(text: str, at: int, where: str) -> tuple[Substitution, int]:
 
 def _made(name: str, arguments: Sequence[Argument], where: str) -> Substitution:
     given: Sequence[Any] = arguments
-    if name in ('eval', 'command') and len(arguments) > 1:  # words without quotes are one
+    is_expression = name == 'eval' or (name == 'command' and not _is_on_stderr(arguments[1:]))
+    if is_expression and len(arguments) > 1:  # words without quotes are one
         blank = [TextSubstitution(text=' ')]
         given = [[each for one in arguments for each in (*one, *blank)][:-1]]
     try:
@@ -136,3 +132,11 @@ def _made(name: str, arguments: Sequence[Argument], where: str) -> Substitution:
         raise refusal(f'$({name} …): it does not take {len(given)} arguments', where) from None
     made.where = where or made.where
     return made
+
+
+def _is_on_stderr(more: Sequence[Argument]) -> bool:
+    """Return whether what follows a command is its second argument, and no word of it."""
+    if len(more) != 1 or len(more[0]) != 1:
+        return False
+    (part,) = more[0]
+    return isinstance(part, TextSubstitution) and part.text in substitutions.ON_STDERR

@@ -144,10 +144,6 @@ class Translation:
         finally:
             self.when, self.context = before
 
-    def also_when(self, condition: Condition) -> Condition:
-        """Return when both what is visited now is to be done, and a condition holds."""
-        return condition if self.when is None else all_of(self.when, condition)
-
     def stack(self) -> Stack:
         """Return all of it. Raises BringupError."""
         if not self.nodes and not self._replaced.pages:
@@ -305,7 +301,7 @@ class Translation:
         """Return whether it is a command of Gazebo, in whose place the simulator was started."""
         program, *rest = words
         name = os.path.basename(program)
-        if name not in ('gz', 'ign', 'gazebo', 'gzserver', 'gzclient') or _is_program(name):
+        if name not in ('gz', 'ign', 'gazebo', 'gzserver', 'gzclient') or shutil.which(name):
             return False
         if name in ('gz', 'ign'):
             if rest[:1] not in (['sim'], ['gazebo']):
@@ -380,7 +376,3 @@ def _starts_soon(node: StackNode) -> bool:
         return False
     ends = [part for part in walk(node.start_when) if is_end_of_node(part)]
     return all(_is_step(other) for part in ends for other in part.nodes)
-
-
-def _is_program(name: str) -> bool:
-    return shutil.which(name) is not None

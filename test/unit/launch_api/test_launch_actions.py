@@ -29,7 +29,7 @@ from launch.event_handlers import *
 from launch.events import Shutdown as ShutdownEvent
 from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import *
-from launch_ros.actions import Node, PushRosNamespace, SetParameter, SetRemap, SetUseSimTime
+from launch_ros.actions import *
 from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 
 def toy(executable, **kwargs):
@@ -316,7 +316,7 @@ def test_functions_are_called_when_the_event_comes(launch):
     assert scheduler.on_line(b, 'I am ready')
     scheduler.on_exit(a, 3)
     assert scheduler.shutdown == Shutdown('no battery')
-    assert [line.text for line in scheduler.lines] == ['heard "I am ready"', 'a gave up']
+    assert [line.text for line in scheduler.lines] == ['heard "I am ready"', 'a-1 gave up']
 
 
 def test_a_function_can_start_nothing(launch):
@@ -437,6 +437,7 @@ def test_opaque_functions_and_own_actions(launch):
         ("1 / 0", r"my.launch.py' failed: ZeroDivisionError: division by zero \("),
         ("RegisterEventHandler(3)", 'it takes an event handler'),
         ("RegisterEventHandler(OnShutdown(on_shutdown=[toy('a')]))", 'OnShutdown cannot start'),
+        ("SetParametersFromFile('p', node_name='a')", "unexpected keyword argument 'node_name'"),
         ("PopEnvironmentX()", "NameError: name 'PopEnvironmentX' is not defined"),
         ("DeclareLaunchArgument('x', default_value='c', choices=['a'])", 'Provided default_value'),
     ],

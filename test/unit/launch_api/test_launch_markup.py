@@ -120,6 +120,7 @@ def test_arguments(folder):
             "a.launch.xml:3: 'massage' of <log> is not understood here; did you mean message",
         ),
         ('a.launch.xml', '<launch>\n<a', 'a.launch.xml:2: is not XML: unclosed token'),
+        ('a.launch.xml', '<launch><log message="a" if="1" unless="0"/></launch>', 'both if an'),
         ('a.launch.xml', '<robot/>', 'its first tag is robot, not launch'),
         ('a.launch.xml', '<launch><log message="$(x)"/></launch>', r'\$\(x\) is not understood'),
         ('a.launch.yaml', 'launch:\n- nod: {}\n', 'a.launch.yaml:2: <nod> is not understood here'),

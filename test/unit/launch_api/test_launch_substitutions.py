@@ -219,6 +219,9 @@ def test_a_parameter_file_with_substitutions(context, tmp_path):
         ('$(equals $(var robot) amr)', 'true'),
         ('$(dirname)/x', '/pkg/launch/x'),
         ("$(command 'echo hi')", 'hi\n'),
+        ('$(command echo hi ignored)', 'hi ignored\n'),
+        ("""$(command "sh -c 'echo hi; echo oh >&2'" ignore)""", 'hi\n'),
+        ("""$(command "sh -c 'echo hi; echo oh >&2'" 'capture')""", 'hi\noh\n'),
         (r'\$(var x)', '$(var x)'),
     ],
 )
