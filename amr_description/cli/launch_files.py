@@ -26,9 +26,14 @@ def find_launch_file(
     """
     Return a stack, as the bring-up takes it, or the path of a launch file, and its arguments.
 
-    :param package: A package, or the path of a file.
-    :param file: The name of a launch file; after a path the first argument.
-    :raises AmrError: It is not there, or not a stack.
+    Args:
+        package: a package, or the path of a file.
+        file: the name of a launch file or of a stack; after a path, the first argument.
+        arguments: the others.
+
+    Raises:
+        AmrError: it is not there, or its name is not that of a launch file.
+        UsageError: of a package, no file is named.
     """
     if _is_path(package):
         return _stack_file(Path(package)), [*([file] if file else []), *arguments]
@@ -38,20 +43,20 @@ def find_launch_file(
     return _of_package(package, file), list(arguments)
 
 
-def stacks_of(package: str) -> list[str]:
-    """Return what may be launched of a package: names of stacks, or files. Raises AmrError."""
+def launchable_names(package: str) -> list[str]:
+    """Return what may be launched of a package: names of stacks and files. Raises AmrError."""
     share = package_prefix(package) / 'share' / package
-    files = []
-    files += [path.name for ending in _MARKUP for path in share.rglob(f'*.launch{ending}')]
+    markup = ('*.launch', *(f'*.launch{ending}' for ending in _MARKUP))
+    files = {path.name for pattern in markup for path in share.rglob(pattern)}
     for path in share.rglob('*.py'):
         with suppress(AmrError):
             if {path.stem, _FUNCTION} & _functions(path):
-                files.append(path.name)
+                files.add(path.name)
     return [*(STACKS if package == _OURS else ()), *sorted(files)]
 
 
 def _is_path(word: str) -> bool:
-    return '/' in word or word.endswith(('.py', '.xml', '.yaml')) or Path(word).is_file()
+    return '/' in word or word.endswith(('.py', *_MARKUP)) or Path(word).is_file()
 
 
 def _of_package(package: str, file: str) -> str:
@@ -114,9 +119,11 @@ def is_launch_file(stack: str) -> bool:
     Raises:
         AmrError: it is not Python.
     """
+    if stack in STACKS:
+        return False
     path = Path(stack)
-    if stack in STACKS or path.suffix in _MARKUP:
-        return stack not in STACKS
+    if path.suffix in _MARKUP:
+        return True
     functions = _functions(path)
     return path.stem not in functions and (
         _FUNCTION in functions or path.name.endswith('.launch.py')

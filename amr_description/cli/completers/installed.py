@@ -42,9 +42,9 @@ def launch_packages(_args: Namespace, prefix: str) -> Iterable[str]:
 
 def launch_files(args: Namespace, _prefix: str) -> Iterable[str]:
     """Return the stacks of the package on the line."""
-    from amr_description.cli.launch_files import stacks_of
+    from amr_description.cli.launch_files import launchable_names
 
-    return stacks_of(args.package_name)
+    return launchable_names(args.package_name)
 
 
 def launch_arguments(args: Namespace, _prefix: str) -> Iterable[str]:

@@ -9,7 +9,11 @@ from fixtures.bringup.running import Bringup, install_toys, STACKS
 from fixtures.cli.commands import ros2
 import pytest
 
-from amr_description.cli.launch_files import find_launch_file, is_launch_file
+from amr_description.cli.launch_files import (
+    find_launch_file,
+    is_launch_file,
+    launchable_names,
+)
 from amr_description.errors import AmrError, UsageError
 
 PLAIN = str(STACKS / 'plain.py')
@@ -50,6 +54,21 @@ def test_a_file_is_known_by_its_path(share, monkeypatch):
     assert find_launch_file(PLAIN, 'code:=3', ['code:=4']) == (PLAIN, ['code:=3', 'code:=4'])
     monkeypatch.chdir(STACKS)
     assert find_launch_file('plain.py', None, []) == ('plain.py', [])
+
+
+def test_what_may_be_launched_of_a_package_is_known(share):
+    for name in ('a.launch', 'b.launch.xml', 'c.launch.yml', 'parameters.yaml'):
+        (share / name).touch()
+    (share / 'd.launch.py').write_text(FOREIGN)
+    (share / 'e.py').write_text('def e(): ...\n')
+    (share / 'module.py').write_text('def f(): ...\n')
+    assert launchable_names('toys') == [
+        'a.launch',
+        'b.launch.xml',
+        'c.launch.yml',
+        'd.launch.py',
+        'e.py',
+    ]
 
 
 @pytest.mark.parametrize('name', ['gazebo.launch.py', 'mine.launch.py'])
@@ -112,6 +131,7 @@ def test_launch_files_and_stacks_are_told_apart(share, name, text, is_one):
         ('toys', '../toys/a.py', AmrError, 'was not found in the share directory'),
         ('./nope.py', None, AmrError, "there is no launch file 'nope.py'"),
         (str(STACKS), None, AmrError, 'there is no launch file'),
+        ('nope.launch', None, AmrError, "there is no launch file 'nope.launch'"),
     ],
 )
 def test_what_is_not_there_is_told_in_one_line(share, package, file, error, said):
