@@ -1,11 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""amr_description/SerialBaseSystem against a board on a pseudo-terminal, also with faults."""
+"""
+amr_description/SerialBaseSystem against a board on a pseudo-terminal: connect, drive, stop.
+
+Boards that go away: ``test_serial_base_losses.py``.
+"""
 
 from contextlib import suppress
 import errno
 import math
-import os
 from pathlib import Path
 import threading
 import time
@@ -15,6 +18,7 @@ import pytest
 import serial
 from support.control_fakes import FakeLog, MS
 from support.motor_boards import BoardOnPty, on_motor_board, SIDES, TamperedBoard
+from support.serial_rig import descriptors, drive, PATIENCE, Rig, threads, wait_until
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareDeactivationError, HardwareError
@@ -37,55 +41,6 @@ from amr_description.hardware.simulated_motor_board import MotorConstants
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 
-PATIENCE = 20.0
-"""s; a bound that only a broken test reaches."""
-REMEDY = 'check its cable and power, then: ros2 control set_hardware_component_state AmrSystem act'
-
-
-class Rig:
-    """The component of the shipped robot on a port, with cycles run by hand."""
-
-    def __init__(self, port, **parameters):
-        (info,) = hardware_of(parse(on_motor_board(port, **parameters)))
-        self.log = FakeLog()
-        self.system = SerialBaseSystem(info, self.log)
-        self.states = {s.name: s for s in self.system.state_interfaces()}
-        self.commands = {c.name: c for c in self.system.command_interfaces()}
-
-    def start(self):
-        self.system.configure()
-        self.system.activate()
-
-    def answer_within(self, timeout):
-        """Set the answer timeout, s, of the connected board."""
-        self.system._board._link._answer_timeout = timeout
-
-    def command(self, left, right):
-        for name, command in self.commands.items():
-            command.value = left if 'left' in name else right
-
-    def turn(self):
-        self.system.read(0, 10 * MS)
-        if self.system._is_active:
-            self.system.write(0, 10 * MS)
-
-    def turn_until(self, condition, board=None):
-        """Run cycles at the rate of the board's answers, or fast without answers."""
-        deadline = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < deadline
-            self.turn()
-            if board is not None:
-                board.answered.wait(0.01)
-                board.answered.clear()
-
-    def state(self, interface):
-        """Return the states of the left and of the right joints."""
-        values = {n: s.value for n, s in self.states.items() if n.endswith(interface)}
-        sides = [{v for n, v in values.items() if side in n} for side in ('left', 'right')]
-        assert [len(side) for side in sides] == [1, 1], 'joints of a side differ'
-        return tuple(value for (value,) in sides)
-
 
 class Wire:
     """Replaces SerialBoard, and records the velocities that are sent."""
@@ -100,40 +55,6 @@ class Wire:
 
     def post(self, _kind, left, right):
         self.sent.append((left, right))
-
-
-def threads():
-    return [thread for thread in threading.enumerate() if thread.name.startswith('serial')]
-
-
-def descriptors():
-    return len(os.listdir('/proc/self/fd'))
-
-
-@pytest.fixture
-def plugged():
-    with BoardOnPty() as plugged:
-        yield plugged
-
-
-@pytest.fixture
-def board(plugged):
-    return plugged.board
-
-
-@pytest.fixture
-def rig(plugged):
-    """Connected and active."""
-    rig = Rig(plugged.port)
-    rig.start()
-    yield rig
-    rig.system.cleanup()
-    assert threads() == []
-
-
-def drive(rig, board, left=5.0, right=-3.0):
-    rig.command(left, right)
-    rig.turn_until(lambda: rig.state('velocity') == (left, right), board)
 
 
 # --- what it is ----------------------------------------------------------------------------------
@@ -466,14 +387,6 @@ def test_a_control_thread_that_hangs_is_stopped_by_the_watchdog_and_may_go_on(pl
     rig.system.cleanup()
 
 
-def wait_until(condition):
-    deadline = time.monotonic() + PATIENCE
-    tick = threading.Event()
-    while not condition():
-        assert time.monotonic() < deadline
-        tick.wait(0.005)
-
-
 @pytest.mark.parametrize(
     'steps',
     [
@@ -499,141 +412,3 @@ def test_without_a_board_read_and_write_fail(step):
     rig = Rig('/dev/nowhere')
     with pytest.raises(HardwareError, match='board on /dev/nowhere is not connected'):
         (rig.turn if step == 'turn' else rig.system.activate)()
-
-
-# --- a board that goes away ----------------------------------------------------------------------
-
-
-def is_lost(rig, board, match):
-    """The fault is reported once, and the manager can bring the component down."""
-    rig.answer_within(0.25)
-    with pytest.raises(HardwareError, match=match) as caught:
-        rig.turn_until(lambda: False, board)
-    assert REMEDY in str(caught.value)
-    assert '\n' not in str(caught.value)
-    with pytest.raises(HardwareError, match=match):
-        rig.system.read(0, 10 * MS)
-    rig.system.deactivate()
-    rig.system.cleanup()
-    assert threads() == []
-
-
-def test_unplugged(rig, board, plugged):
-    drive(rig, board)
-    plugged.unplug()
-    is_lost(rig, board, f'^the motor board on {plugged.port} is gone, as if it were unplugged; ch')
-
-
-def test_a_lost_board_cannot_be_written(rig, board, plugged):
-    plugged.unplug()
-    wait_until(lambda: rig.system._board.is_lost)
-    with pytest.raises(HardwareError, match='is gone, as if it were unplugged'):
-        rig.system.write(0, 10 * MS)
-
-
-def test_silent(rig, board):
-    drive(rig, board)
-    board.tamper = lambda answer: b''
-    is_lost(rig, board, 'has not told its state for 0.25 s; check')
-
-
-def test_deaf(rig, board):
-    drive(rig, board)
-    board.is_deaf = True
-    is_lost(rig, board, 'has not told its state for 0.25 s; check')
-
-
-def test_receives_only_noise(rig, board, monkeypatch):
-    drive(rig, board)
-    noise = b'$NOISE*0000\n'
-    receive = board.receive
-    monkeypatch.setattr(board, 'receive', lambda data: receive(noise if data else b''))
-    is_lost(rig, board, r'has not told its state for 0.25 s, but refused \d+ lines \(CHECKSUM\);')
-
-
-@pytest.mark.parametrize(
-    ('error', 'text'),
-    [
-        (serial.SerialTimeoutException('Write timeout'), 'takes no more bytes; check'),
-        (RuntimeError('a bug'), r'cannot be talked to \(RuntimeError: a bug\); check'),
-    ],
-)
-def test_cannot_be_written_to(rig, board, monkeypatch, error, text):
-    def fail(_data):
-        raise error
-
-    drive(rig, board)
-    monkeypatch.setattr(rig.system._board._link._serial, 'write', fail)
-    is_lost(rig, board, text)
-
-
-def test_sends_much_noise(rig, board):
-    drive(rig, board)
-    board.tamper = lambda answer: b'\x00noise\n' + answer if answer else b''
-    is_lost(rig, board, r"sends noise: 2. of its last 100 lines were refused, the last one b'.x00")
-
-
-def test_sends_noise_without_end(rig, board):
-    drive(rig, board)
-    board.tamper = lambda answer: b'x' * 10
-    is_lost(rig, board, 'has not told its state for 0.25 s; check')
-
-
-def test_sends_a_little_noise(rig, board):
-    count = iter(range(10**9))
-    board.tamper = lambda answer: answer + b'noise\n' * (next(count) % 10 == 0) if answer else b''
-    rig.turn_until(lambda: rig.system._board._link.status.refused > 30, board)
-
-
-def test_restarted(rig, board):
-    drive(rig, board)
-    rig.turn_until(lambda: board._uptime > 0.2, board)
-    board._uptime = 0.0
-    is_lost(rig, board, 'has restarted by itself, as after a power failure; check')
-
-
-def test_the_clock_of_the_board_may_wrap(plugged, board):
-    board._uptime = 2**32 / 1000 - 0.05
-    rig = Rig(plugged.port)
-    rig.start()
-    rig.turn_until(lambda: board._uptime > 2**32 / 1000 + 0.05, board)
-    rig.system.cleanup()
-
-
-def test_disarms_its_motors(rig, board):
-    drive(rig, board)
-    board.fail()
-    is_lost(rig, board, 'has let go of its motors: it is in the mode FAULT')
-
-
-def test_a_board_with_a_fault_is_not_activated(plugged, board):
-    rig = Rig(plugged.port)
-    rig.system.configure()
-    board.fail()
-    with pytest.raises(
-        HardwareError, match='does not arm its motors: it is in the mode FAULT; check'
-    ):
-        rig.system.activate()
-    rig.system.cleanup()
-
-
-def test_comes_back_and_positions_go_on(tmp_path):
-    link = tmp_path / 'board'
-    with BoardOnPty(link) as first:
-        rig = Rig(link)
-        rig.start()
-        drive(rig, first.board)
-        rig.turn_until(lambda: rig.state('position')[0] > 1.0, first.board)
-        first.unplug()
-        is_lost(rig, first.board, 'is gone')
-    before = rig.state('position')
-    with pytest.raises(HardwareError, match=f"'{link}': there is no such file"):
-        rig.system.configure()
-    with BoardOnPty(link) as second:
-        second.board.left.position = second.board.right.position = 123.0
-        rig.start()
-        assert rig.state('position') == before
-        drive(rig, second.board, 2.0, 2.0)
-        rig.turn_until(lambda: rig.state('position')[0] > before[0] + 0.1, second.board)
-        assert rig.state('position')[0] < before[0] + 2.0
-        rig.system.cleanup()

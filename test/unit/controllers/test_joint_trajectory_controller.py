@@ -1,119 +1,33 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The joint trajectory controller over joints without physics, update by update."""
+"""
+The joint trajectory controller over joints without physics, update by update.
+
+What its parameters may be: ``test_joint_trajectory_parameters.py``.
+"""
 
 import math
 
 from hypothesis import given, strategies as st
 import pytest
-from support.control_fakes import collect, FakeLog
+from support.trajectory_arm import Arm, outcome, PERIOD, trajectory
 
 from amr_description.clock import NANOSECONDS as S
-from amr_description.control.contracts import ControllerContext, Goal, GoalStatus, Severity
-from amr_description.control.interfaces import CommandInterface, StateInterface
+from amr_description.control.contracts import GoalStatus, Severity
 from amr_description.control.trajectory_samples import (
-    FollowTrajectoryGoal,
     JointTolerance,
     QueryStateRequest,
     SpeedScalingSample,
     TrajectoryPoint,
-    TrajectorySample,
 )
-from amr_description.controllers.joint_trajectory_controller import JointTrajectoryController
-from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
-from amr_description.errors import ControllerError, ParameterError
-from amr_description.former_parameters import understand
 from amr_description.model.urdf import parse
-from amr_description.parameters import build
 
-PERIOD = S // 100
-BASIC = {
-    'joints': ('a', 'b'),
-    'command_interfaces': ('position',),
-    'state_interfaces': ('position', 'velocity'),
-}
 URDF = """
 <robot name="arm"><link name="base"/><link name="upper"/><link name="lower"/>
 <joint name="a" type="continuous"><parent link="base"/><child link="upper"/></joint>
 <joint name="b" type="revolute"><parent link="upper"/><child link="lower"/>
 <limit lower="-9" upper="9" effort="1" velocity="9"/></joint></robot>
 """
-
-
-class Arm:
-    """Two joints whose states are set by hand, or follow the commands one period later."""
-
-    def __init__(self, robot=None, positions=(0.0, 0.0), **parameters):
-        self.log = FakeLog()
-        self.parameters = build(
-            JointTrajectoryParameters,
-            BASIC | {name.replace('__', '.'): value for name, value in parameters.items()},
-        )
-        self.controller = JointTrajectoryController(
-            ControllerContext('arm', self.log, update_rate=100, robot=robot)
-        )
-        self.controller.configure(self.parameters)
-        self.commands = [
-            CommandInterface(*name.split('/'))
-            for name in self.controller.command_interfaces().names
-        ]
-        self.states = [
-            StateInterface(*name.split('/'), 0.0)
-            for name in self.controller.state_interfaces().names
-        ]
-        self.time = 5 * S
-        self.is_following = True
-        self.sent = collect(self.controller.outputs()[0])
-        self.place(*positions)
-
-    def place(self, *positions, velocities=(0.0, 0.0)):
-        kinds = {'position': positions, 'velocity': velocities, 'acceleration': (0.0, 0.0)}
-        for handle in self.states:
-            if handle.prefix in ('a', 'b'):
-                handle.value = kinds[handle.interface]['ab'.index(handle.prefix)]
-
-    def activate(self):
-        self.controller.activate(self.commands, self.states, self.time)
-        for port in (*self.controller.inputs(), *self.controller.actions()):
-            port.open()
-        return self
-
-    def values(self, kind='position', handles=None):
-        return [h.value for h in (handles or self.commands) if h.interface == kind]
-
-    def run(self, seconds=0.01):
-        """Return the commanded positions of each update."""
-        commands = []
-        for _ in range(round(seconds * 100)):
-            self.controller.update(self.time, PERIOD)
-            commands.append(self.values() or self.values('velocity') or self.values('effort'))
-            if self.is_following and self.values():
-                self.place(*self.values())
-            self.time += PERIOD
-        return commands
-
-    def send(self, *points, times=None, stamp=0, names=('a', 'b'), **tolerances):
-        """Send a goal; return it."""
-        goal = Goal(
-            FollowTrajectoryGoal(
-                trajectory(*points, times=times, stamp=stamp, names=names), **tolerances
-            )
-        )
-        action = self.controller.actions()[0]
-        assert action.check(goal.request, self.time) == ''
-        assert action.put(goal)
-        return goal
-
-
-def trajectory(*points, times=None, stamp=0, names=('a', 'b')):
-    points = tuple(p if isinstance(p, TrajectoryPoint) else TrajectoryPoint(p) for p in points)
-    times = times or [1.0 + k for k in range(len(points))]
-    return TrajectorySample(stamp, names, points, tuple(round(t * S) for t in times))
-
-
-def outcome(goal):
-    status, result = goal.outcome
-    return status, result.error_code, result.error_string
 
 
 def test_it_holds_where_the_joints_are_after_activation():
@@ -548,128 +462,3 @@ def test_it_survives_a_reset_and_a_jump_while_inactive():
     arm.controller.reset(0)
     arm.controller.set_clock(0)
     arm.controller.deactivate(0)
-
-
-@pytest.mark.parametrize(
-    ('parameters', 'text'),
-    [
-        (
-            {'command_interfaces': ('velocity', 'effort')},
-            "'velocity' command interface can be used either alone or 'position' interface has to "
-            'be present',
-        ),
-        (
-            {'command_interfaces': ('position', 'acceleration')},
-            "'acceleration' command interface can only be used if 'velocity' and 'position' "
-            'interfaces are present',
-        ),
-        (
-            {'command_interfaces': ('position', 'velocity', 'effort')},
-            "'effort' command interface has to be used alone or with a 'position' interface",
-        ),
-        (
-            {'state_interfaces': ('velocity',)},
-            "'velocity' state interface cannot be used if 'position' interface is missing.",
-        ),
-        (
-            {'state_interfaces': ('position', 'acceleration')},
-            "'acceleration' state interface cannot be used if 'position' and 'velocity' "
-            'interfaces are not present.',
-        ),
-        (
-            {'command_interfaces': ('velocity',), 'state_interfaces': ('position',)},
-            "'velocity' command interface can only be used alone if 'velocity' and 'position' "
-            'state interfaces are present',
-        ),
-        (
-            {'command_interfaces': ('effort',), 'state_interfaces': ('position',)},
-            "'effort' command interface can only be used alone or with 'position' command "
-            "interface if 'velocity' and 'position' state interfaces are present",
-        ),
-        (
-            {'command_joints': ('a', 'b', 'c')},
-            "The 'command_joints' parameter must not exceed the size of the 'joints' parameter.",
-        ),
-        (
-            {'command_joints': ('c',)},
-            "'command_joints' parameter must be a subset of 'joints' parameter, if their size is "
-            'not equal.',
-        ),
-    ],
-)
-def test_combinations_that_mean_nothing_are_refused_in_these_words(parameters, text):
-    with pytest.raises(ControllerError) as caught:
-        Arm(**parameters)
-    assert str(caught.value) == text
-
-
-@pytest.mark.parametrize(
-    ('parameters', 'text'),
-    [
-        ({'joints': ()}, "'joints' must not be empty"),
-        ({'joints': ('a', 'a')}, "'joints' must not hold anything twice"),
-        ({'command_interfaces': ('torque',)}, "'command_interfaces' must hold only position, "),
-        ({'interpolation_method': 'none at all'}, "'interpolation_method' must be one of"),
-        ({'action_monitor_rate': 0.0}, "'action_monitor_rate' must be at least 0.1"),
-        ({'constraints__goal_time': -1.0}, r"'constraints\.goal_time' must be at least 0"),
-        (
-            {'gains__a__antiwindup_strategy': 'x'},
-            r"'gains\.a\.antiwindup_strategy' must be one of",
-        ),
-    ],
-)
-def test_parameters_out_of_bounds_are_refused(parameters, text):
-    with pytest.raises(ParameterError, match=text):
-        Arm(**parameters)
-
-
-@pytest.mark.parametrize(
-    ('gains', 'limits'),
-    [
-        ({}, (0.0, 0.0)),
-        ({'i_clamp': 2.0}, (-2.0, 2.0)),
-        ({'i_clamp': 2.0, 'i_clamp_max': 1.0}, (-2.0, 1.0)),
-        ({'antiwindup_strategy': 'none'}, (-math.inf, math.inf)),
-        ({'antiwindup_strategy': 'none', 'i_clamp_min': -3.0}, (-3.0, math.inf)),
-    ],
-)
-def test_integral_clamps_of_older_and_newer_files_are_understood(gains, limits):
-    arm = Arm(**{f'gains__a__{name}': value for name, value in gains.items()})
-    pid = arm.parameters.gains['a'].pid()
-    assert (pid.i_min, pid.i_max) == limits
-
-
-def test_parameters_of_earlier_releases_are_understood():
-    given = {
-        'joints': ['a'],
-        'state_publish_rate': 50.0,
-        'start_with_holding': True,
-        'constraints.goal_time': 1,
-        'gains.a.normalize_error': True,
-    }
-    found = understand(JointTrajectoryParameters, given)
-    assert found.values == {'constraints.goal_time': 1.0}
-    assert found.texts['gains.a.normalize_error'] == (
-        "parameter 'gains.a.normalize_error' is true: it is of Humble, and has no effect: joints "
-        'that the URDF calls continuous wrap around'
-    )
-    assert len(found.texts) == 4
-
-
-def test_what_is_set_up_is_logged():
-    arm = Arm(open_loop_control=True, allow_partial_joints_goal=True)
-    assert arm.log.texts() == [
-        "[deprecated] 'open_loop_control' parameter is deprecated. Instead, set the feedback "
-        "gains to zero and use 'interpolate_from_desired_state' parameter",
-        "No specific joint names are used for command interfaces. Using 'joints' parameter.",
-        'Goals with partial set of joints are allowed',
-        'Command interfaces are [position] and state interfaces are [position velocity].',
-        "Using 'splines' interpolation method.",
-        'Action status changes will be monitored at 20.00 Hz.',
-    ]
-
-
-def test_less_interfaces_than_requested_are_refused():
-    arm = Arm()
-    with pytest.raises(ControllerError, match=r'Expected 2 command interfaces, got 1\.'):
-        arm.controller.activate(arm.commands[:1], arm.states, 0)
