@@ -38,14 +38,20 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 from rclpy.service import Service
 
 from amr_description.ament_index import resolve_uri
-from amr_description.errors import AmrError, MapDataError, MapError, MapMetadataError
+from amr_description.errors import (
+    AmrError,
+    MapDataError,
+    MapError,
+    MapMetadataError,
+    ParameterError,
+)
 from amr_description.navigation.grid import OccupancyGrid
 from amr_description.navigation.map_files import load_map
 from amr_description.navigation.ros.map_service import MapService
 from amr_description.parameters import parameter
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare, values
-from amr_description.ros.runtime import run
+from amr_description.ros.runtime import argument_errors, run
 
 _SUCCESS, _FAILURE = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
 
@@ -80,9 +86,15 @@ class MapServer(LifecycleNode):
         """Read the map; make topic and services."""
         self.get_logger().info('Configuring')
         parameters = values(self, MapServerParameters)
-        service = MapService(
-            self, parameters.topic_name, parameters.frame_id, lambda: self._is_active
-        )
+        try:
+            with argument_errors():
+                service = MapService(
+                    self, parameters.topic_name, parameters.frame_id, lambda: self._is_active
+                )
+        except ParameterError as error:
+            self.fault = ParameterError(f"parameter 'topic_name': {error}")
+            self.get_logger().error(str(self.fault))
+            return _FAILURE
         try:
             if parameters.yaml_filename:
                 service.take(_load(parameters.yaml_filename))

@@ -136,6 +136,15 @@ def test_a_map_that_cannot_be_read_is_not_configured_until_it_can(started, hall,
     assert state(node) == 'inactive'
 
 
+def test_a_topic_that_is_no_name_is_not_configured_until_it_is_one(started, hall):
+    server, node = started(f'yaml_filename:={hall}', "topic_name:='a b'")
+    assert not change(node, 'configure')
+    assert state(node) == 'unconfigured'
+    assert str(server.fault).startswith("parameter 'topic_name': Invalid topic name")
+    server.set_parameters([Parameter('topic_name', value='hall')])
+    assert change(node, 'configure')
+
+
 def test_without_a_file_the_map_comes_by_load_map(started, hall):
     _, node = started()
     assert change(node, 'configure')
