@@ -104,11 +104,6 @@ class Costmap:
         return self._costs
 
     @property
-    def lethal(self) -> NDArray[np.bool_]:
-        """(height, width): where an obstacle is."""
-        return self._static | self._obstacles
-
-    @property
     def seen(self) -> NDArray[np.bool_]:
         """(height, width): obstacles of the scan that the map has not."""
         return self._obstacles & ~self._static

@@ -45,13 +45,8 @@ from amr_description.navigation.localization import (
     ScanTracker,
 )
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.localizer import (
-    after,
-    LocalizerTopics,
-    plane_covariance,
-    plane_pose,
-)
-from amr_description.navigation.ros.messages import grid_of, pose_of
+from amr_description.navigation.ros.localizer import after, LocalizerTopics, plane_covariance
+from amr_description.navigation.ros.messages import grid_of, plane_pose, pose_of
 from amr_description.navigation.ros.transform_queue import TransformQueue
 from amr_description.navigation.scan_matching import Match, ScanMatcher
 from amr_description.parameters import group, parameter
@@ -311,7 +306,7 @@ class ScanLocalizer(Node):
     def _complain(self) -> None:
         if self._tracker is not None and self._tracker.estimate is not None:
             return
-        given, missing = self._settings, ''
+        given = self._settings
         if self._tracker is None:
             missing = (
                 f'nothing is on {self._maps.topic_name}; map_server publishes it, reliable and '

@@ -43,13 +43,8 @@ from amr_description.errors import TransformException
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.entity_mover import EntityMover
-from amr_description.navigation.ros.localizer import (
-    after,
-    listed,
-    LocalizerTopics,
-    plane_pose,
-)
-from amr_description.navigation.ros.messages import pose_of
+from amr_description.navigation.ros.localizer import after, listed, LocalizerTopics
+from amr_description.navigation.ros.messages import plane_pose, pose_of
 from amr_description.navigation.ros.transform_queue import TransformQueue
 from amr_description.parameters import parameter
 from amr_description.ros.messages import nanoseconds, transform_of

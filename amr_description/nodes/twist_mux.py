@@ -190,9 +190,8 @@ class _Source:
     def __init__(self, node: TwistMuxNode, topic: str, channels: list[Channel]) -> None:
         """``channels``: those that have this topic, mostly one."""
         self._node, self._topic, self._channels = node, topic, channels
-        self._is_stamped = (
-            False  # what Nav2 and most others publish if they are not told otherwise
-        )
+        # What Nav2 and most others publish if they are not told otherwise.
+        self._is_stamped = False
         self._subscription: Subscription | None = None
         self._subscribe()
 

@@ -192,7 +192,6 @@ def spawn(
         pose: Transform from the root link to the world.
         name: Of the entity; empty: that of the URDF.
         namespace: Of the controller manager; empty: what the URDF says, or none.
-        bridge: What topics of Gazebo are called.
 
     Raises:
         SimulationError: The simulator rejects the robot.
@@ -257,6 +256,7 @@ def spawn_controllers(
             be, or claims what another one has claimed, is then left out or inactive, with a
             warning.
         namespace: Of the controller manager; empty: what the URDF says, or none.
+        bridge: What topics of Gazebo are called.
 
     Raises:
         ControllerError, ParameterError: A controller that is named cannot be spawned.

@@ -16,8 +16,7 @@ from tf2_msgs.msg import TFMessage
 
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.localizer import plane_pose
-from amr_description.navigation.ros.messages import pose_message, pose_of
+from amr_description.navigation.ros.messages import plane_pose, pose_message, pose_of
 from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import spinning

@@ -110,8 +110,6 @@ class RangeCounts:
     """Finite, and smaller than range_min."""
     infinite: int = 0
     """+inf: nothing met."""
-    too_near: int = 0
-    """-inf."""
     invalid: int = 0
     """NaN."""
 

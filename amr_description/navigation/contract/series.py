@@ -30,11 +30,6 @@ def usual_rate(times: Sequence[int]) -> float:
     return NANOSECONDS / interval if interval > 0 else 0.0
 
 
-def largest_gap(times: Sequence[int]) -> float:
-    """Return the longest interval between successive instants of two or more, s."""
-    return max(later - earlier for earlier, later in pairwise(times)) / NANOSECONDS
-
-
 def not_after(times: Sequence[int]) -> list[tuple[int, int]]:
     """Return each pair of successive instants of which the second is not later."""
     return [(earlier, later) for earlier, later in pairwise(times) if later <= earlier]

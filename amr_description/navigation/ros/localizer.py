@@ -14,14 +14,14 @@ topic            type                       QoS
 
 from collections.abc import Callable, Iterable
 
-from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
+from geometry_msgs.msg import PoseWithCovarianceStamped
 import numpy as np
 from numpy.typing import NDArray
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 from amr_description.clock import NANOSECONDS
-from amr_description.model.frames import quaternion_from_yaw, Transform, yaw_of
+from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.messages import is_place, pose_message
 from amr_description.ros.messages import fill_stamp
@@ -139,13 +139,6 @@ def plane_covariance(message: PoseWithCovarianceStamped) -> NDArray[np.float64]:
     """Return the covariance of x, y and yaw, (3, 3), of a pose."""
     whole = np.asarray(message.pose.covariance, dtype=np.float64).reshape(6, 6)
     return whole[np.ix_(_AXES, _AXES)]
-
-
-def plane_pose(transform: TransformStamped) -> Pose:
-    """Return a transform seen from above."""
-    translation, rotation = transform.transform.translation, transform.transform.rotation
-    yaw = yaw_of((rotation.x, rotation.y, rotation.z, rotation.w))
-    return Pose(translation.x, translation.y, yaw)
 
 
 def after(node: Node, seconds: float, call: Callable[[], None]) -> None:

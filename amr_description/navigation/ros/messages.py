@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Grids and poses ↔ ``nav_msgs`` and ``geometry_msgs``."""
+"""Grids and poses in the plane ↔ ``nav_msgs`` and ``geometry_msgs``."""
 
 import math
 
-from geometry_msgs.msg import Pose as PoseMessage, Quaternion
+from geometry_msgs.msg import Pose as PoseMessage, Quaternion, TransformStamped
 from nav_msgs.msg import OccupancyGrid as OccupancyGridMessage
 import numpy as np
 
@@ -39,6 +39,13 @@ def pose_of(message: PoseMessage) -> Pose:
     turn = message.orientation
     yaw = yaw_of((turn.x, turn.y, turn.z, turn.w))
     return Pose(message.position.x, message.position.y, yaw)
+
+
+def plane_pose(transform: TransformStamped) -> Pose:
+    """Return a transform seen from above."""
+    translation, rotation = transform.transform.translation, transform.transform.rotation
+    yaw = yaw_of((rotation.x, rotation.y, rotation.z, rotation.w))
+    return Pose(translation.x, translation.y, yaw)
 
 
 def grid_message(grid: OccupancyGrid, frame_id: str = 'map') -> OccupancyGridMessage:

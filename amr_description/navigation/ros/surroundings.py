@@ -16,7 +16,7 @@ from sensor_msgs.msg import LaserScan
 from amr_description.errors import NavigationError, TransformException
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.messages import grid_of, is_place, pose_of
+from amr_description.navigation.ros.messages import grid_of, is_place, plane_pose, pose_of
 from amr_description.parameters import group, parameter
 from amr_description.ros.qos import LATCHED
 from amr_description.tf2_ros.buffer import Buffer
@@ -143,11 +143,7 @@ class Surroundings:
             raise NavigationError(
                 TF_ERROR, f'{what} is not known in {self._settings.global_frame}: {error}'
             ) from None
-        place, turn = found.transform.translation, found.transform.rotation
-        yaw = math.atan2(
-            2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2)
-        )
-        return Pose(place.x, place.y, yaw)
+        return plane_pose(found)
 
     def _hear_map(self, message: OccupancyGrid) -> None:
         try:
@@ -180,12 +176,8 @@ class Surroundings:
         except TransformException:
             return  # it is tried again at the next step; a scan that gets too old is a fault
         self._scan = None
-        place, turn = found.transform.translation, found.transform.rotation
-        yaw = math.atan2(
-            2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2)
-        )
         ranges = np.array(message.ranges, dtype=float)
         ranges[(ranges < message.range_min) | (ranges > message.range_max)] = np.nan
         ranges[np.isposinf(np.array(message.ranges))] = np.inf
         angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
-        self.costmap.see(Pose(place.x, place.y, yaw), angles, ranges)
+        self.costmap.see(plane_pose(found), angles, ranges)

@@ -12,8 +12,7 @@ from support.localizer_host import hosted, MS
 
 from amr_description.model.frames import Transform
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.localizer import plane_pose
-from amr_description.navigation.ros.messages import pose_of
+from amr_description.navigation.ros.messages import plane_pose, pose_of
 from amr_description.nodes import truth_localizer
 from amr_description.nodes.truth_localizer import TruthLocalizer
 from amr_description.ros.messages import nanoseconds

@@ -314,7 +314,6 @@ def counts_of(message: LaserScan) -> RangeCounts:
         beyond=beyond,
         nearer=nearer,
         infinite=int(np.isposinf(ranges).sum()),
-        too_near=int(np.isneginf(ranges).sum()),
         invalid=int(np.isnan(ranges).sum()),
     )
 
