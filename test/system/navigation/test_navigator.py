@@ -102,13 +102,18 @@ class Operator(Node):
         twist = self.heard['ground_truth/odom'].twist.twist
         return abs(twist.linear.x) < 0.01 and abs(twist.angular.z) < 0.02
 
+    @property
+    def commanded(self):
+        """The last command; None: the robot may drive already, but its commands are not heard."""
+        command = self.heard.get('cmd_vel')
+        return command and command.twist
+
     def moves(self):
         return abs(self.heard['ground_truth/odom'].twist.twist.linear.x) > 0.1
 
     def is_told_to_stand(self):
-        if (command := self.heard.get('cmd_vel')) is None:  # it drives, but is not heard yet
-            return False
-        return command.twist.linear.x == command.twist.angular.z == 0.0
+        twist = self.commanded
+        return twist is not None and twist.linear.x == twist.angular.z == 0.0
 
 
 def stamped(pose, frame='map'):
@@ -230,7 +235,7 @@ def test_parameters_may_be_set_while_it_drives(operator):
     handle = operator.send(NavigateToPose, pose=stamped(far_from(operator)))
     operator.until(operator.moves)
     assert set_speed(0.2).successful
-    operator.until(lambda: 0.0 < operator.heard['cmd_vel'].twist.linear.x <= 0.2)
+    operator.until(lambda: operator.commanded and 0.0 < operator.commanded.linear.x <= 0.2)
     assert 'desired_linear_vel' in set_speed(-1.0).reason
     assert set_speed(0.5).successful
     handle.cancel_goal_async()
@@ -333,8 +338,10 @@ def test_the_robot_stops_when_localisation_ceases(operator, up):
     operator.until(operator.moves)
     pid = next(pid for name, pid in up.pids().items() if name.startswith('truth_localizer'))
     os.kill(pid, signal.SIGSTOP)
-    status, result = operator.end(handle)
-    os.kill(pid, signal.SIGCONT)
+    try:
+        status, result = operator.end(handle)
+    finally:
+        os.kill(pid, signal.SIGCONT)
     assert status == GoalStatus.STATUS_ABORTED
     assert result.error_code == 202
     assert 's old: localisation, or the odometry' in result.error_msg

@@ -64,7 +64,11 @@ def command(kind, speed):
 
 
 def send_until(node, publisher, message, condition):
-    """Publish again and again: an input takes up the type of a new publisher after a moment."""
+    """
+    Publish again and again, as an input listens by best effort.
+
+    It also takes up the type of a new publisher only after a moment.
+    """
     until(node, lambda: condition() or publisher.publish(message))
 
 
@@ -161,8 +165,7 @@ def test_a_lock_stops_what_is_below_it_and_diagnostics_say_so(tmp_path, user):
 
         until(user, lambda: reports and value('current priority') == '0')
         assert value('lock locks.stop').startswith(' free ')
-        lock.publish(Bool(data=True))
-        until(user, lambda: value('current priority') == '50')
+        send_until(user, lock, Bool(data=True), lambda: value('current priority') == '50')
         assert value('lock locks.stop').startswith(' locked ')
         until(user, navigation.get_subscription_count)
         until(user, teleop.get_subscription_count)

@@ -38,23 +38,30 @@ class Listener:
         self.subscription = sim.node.create_subscription(
             LaserScan, '/scan', self.hear, QoSProfile(depth=100)
         )
-        while not self.scans:
-            sim.run(0.1)
-        while not self.knows(self.scans[-1]):
-            sim.run(0.1)
+        sim.wait(self.hears_all_after_a_period, 'scans, and the pose of the robot at their stamps')
 
     def hear(self, scan):
         self.scans.append(scan)
         if not self.knows(scan):
             self.early.append(nanoseconds(scan.header.stamp))
 
+    def hears_all_after_a_period(self):
+        self.sim.run(0.1)
+        return bool(self.scans) and self.knows(self.scans[-1])
+
     def knows(self, scan):
-        return self.buffer.can_transform(
-            'odom', 'base_footprint', Time.from_msg(scan.header.stamp)
-        )
+        return self.knows_pose(Time.from_msg(scan.header.stamp))
+
+    def knows_pose(self, time):
+        return self.buffer.can_transform('odom', 'base_footprint', time)
 
     def begin(self):
-        """Begin anew at time 0, with nothing heard."""
+        """Begin anew at time 0, with nothing heard, and nothing on its way."""
+        # The last cycle was that before the present instant.
+        last = round(1000 * self.sim.time - 10) // 10 * 10 * MS
+        scan = last // (100 * MS) * 100 * MS
+        self.sim.wait(lambda: self.stamps()[-1:] == [scan], f'the scan of {scan} ns')
+        self.sim.wait(lambda: self.knows_pose(Time(nanoseconds=last)), f'the pose at {last} ns')
         self.sim.reset()
         for each in (self.buffer, self.scans, self.early):
             each.clear()

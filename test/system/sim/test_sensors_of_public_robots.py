@@ -17,6 +17,8 @@ OUTSIDE = {'/velodyne_points'}
 OF_CONTACT = set(PACKAGES)
 """Messages that come only with a contact, or have the frame of the world."""
 
+pytestmark = pytest.mark.in_order('one simulator, of which a robot is removed at the end')
+
 
 @pytest.fixture(scope='module')
 def sim(tmp_path_factory):

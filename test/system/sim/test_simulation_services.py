@@ -78,6 +78,8 @@ def sim(process):
     yield process
     process.ask(SetSimulationState, state=S(state=S.STATE_PAUSED))
     process.do(ResetSimulation)
+    # The next test waits for times that pass: those of this one must not be on their way.
+    process.wait(lambda: process.clock and process.time == 0)
 
 
 def state(sim):

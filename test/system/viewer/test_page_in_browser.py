@@ -405,9 +405,9 @@ def test_what_stands_still_is_said_to_be_old(page, simulation, ears):
         page.wait_until(
             "document.querySelector('.chip.link').textContent.match('No data for 2 s')"
         )
-        assert page.evaluate("document.querySelectorAll('.readout .stale').length") == 2
-        assert page.evaluate("document.querySelector('.factor').textContent") == '–'
-        assert page.evaluate("document.body.classList.contains('stale')")
+        page.wait_until("document.querySelectorAll('.readout .stale').length === 2")
+        page.wait_until("document.querySelector('.factor').textContent === '–'")
+        page.wait_until("document.body.classList.contains('stale')")
     finally:
         os.kill(simulator, signal.SIGCONT)
     page.wait_until("document.querySelector('.chip.link').textContent === 'Connected'")
