@@ -16,7 +16,8 @@ from amr_description.text import suggestion
 _OURS = 'amr_description'
 _TUTORIALS = {'gazebo': 'simulation'}  # as the tutorial calls its launch file -> our stack
 _FUNCTION = 'generate_launch_description'
-_MARKUP = ('.xml', '.yaml', '.yml', '.launch')
+MARKUP = ('.xml', '.yaml', '.yml', '.launch')
+"""The endings of launch files that are not Python; ``launch_api.markup`` reads them."""
 _SUFFIXES = ('.launch.py', '.launch.xml', '.launch.yaml', '.launch', '.py')
 
 
@@ -46,7 +47,7 @@ def find_launch_file(
 def launchable_names(package: str) -> list[str]:
     """Return what may be launched of a package: names of stacks and files. Raises AmrError."""
     share = package_prefix(package) / 'share' / package
-    markup = ('*.launch', *(f'*.launch{ending}' for ending in _MARKUP))
+    markup = ('*.launch', *(f'*.launch{ending}' for ending in MARKUP))
     files = {path.name for pattern in markup for path in share.rglob(pattern)}
     for path in share.rglob('*.py'):
         with suppress(AmrError):
@@ -56,7 +57,7 @@ def launchable_names(package: str) -> list[str]:
 
 
 def _is_path(word: str) -> bool:
-    return '/' in word or word.endswith(('.py', *_MARKUP)) or Path(word).is_file()
+    return '/' in word or word.endswith(('.py', *MARKUP)) or Path(word).is_file()
 
 
 def _of_package(package: str, file: str) -> str:
@@ -103,7 +104,7 @@ def _stack_file(path: Path) -> str:
     """Return the path if there is a file with a stack in it, or a launch file. Raises AmrError."""
     if not path.is_file():
         raise AmrError(f"there is no launch file '{path}'; {_known_stacks()}")
-    if path.suffix not in ('.py', *_MARKUP):
+    if path.suffix not in ('.py', *MARKUP):
         endings = ', '.join(_SUFFIXES)
         raise AmrError(f"'{path}': the name of a launch file ends with one of {endings}")
     return str(path)
@@ -122,7 +123,7 @@ def is_launch_file(stack: str) -> bool:
     if stack in STACKS:
         return False
     path = Path(stack)
-    if path.suffix in _MARKUP:
+    if path.suffix in MARKUP:
         return True
     functions = _functions(path)
     return path.stem not in functions and (

@@ -192,9 +192,8 @@ def main(args: Sequence[str]) -> int:
     text = Path(args[0]).read_text()
     prefixes = [Path(each) for each in os.environ.get('AMENT_PREFIX_PATH', '').split(':') if each]
     request = read_request(text)
-    faults = (
-        request.build / 'faults'
-    )  # for workspace/cmake.py: Ninja mixes them with its own words
+    # Of Ninja's output, in which its own words are too, workspace/cmake.py could not tell them.
+    faults = request.build / 'faults'
     faults.unlink(missing_ok=True)
     try:
         build(request, text, prefixes)

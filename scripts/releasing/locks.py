@@ -32,7 +32,6 @@ PLATFORMS = (
     'manylinux1_x86_64',
 )
 """What manylinux_2_28 can load: pip takes such a list by the letter."""
-ABIS = ('--abi=cp312', '--abi=abi3', '--abi=none')
 PYTHON = (
     '--implementation=cp',
     '--python-version=3.12',

@@ -28,7 +28,6 @@ from environment import launchers
 
 PACKAGE = launchers.PACKAGE
 LIBRARY = 'lib/python3.12/site-packages'
-SHELLS = ('sh', 'bash', 'zsh')
 
 _BEGIN = """\
 #!/bin/sh
@@ -76,8 +75,6 @@ sys.path.insert(0, sys.prefix + "/{library}")
 import amr_description
 
 del sys.path[0]"""
-
-_LOCAL_FILE = {'bash': '${BASH_SOURCE[0]}', 'zsh': '${(%):-%x}'}
 
 _LOCAL_SETUP_SH = """\
 # Of the wheel of amr_description: this virtual environment as a ROS prefix. bash and zsh know

@@ -11,7 +11,6 @@ import xml.etree.ElementTree as ElementTree
 from releasing import ReleaseError
 
 CHANGELOG = 'CHANGELOG.md'
-UNRELEASED = 'unreleased'
 _ELSEWHERE = {
     'setup.py': r"""^ +version='([^']+)'""",
     'interfaces/pyproject.toml': r"""^version *= *"([^"]+)\"""",

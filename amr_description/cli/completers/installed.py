@@ -34,14 +34,18 @@ def executables(args: Namespace, _prefix: str) -> Iterable[str]:
 
 
 def launch_packages(_args: Namespace, prefix: str) -> Iterable[str]:
-    """Return the package of the stacks, and Python files."""
+    """Return the packages with stacks or launch files, and files that may be one."""
     from argcomplete.completers import FilesCompleter
 
-    return ['amr_description', *FilesCompleter(('py',))(prefix=prefix)]
+    from amr_description.cli.launch_files import launchable_names, MARKUP
+
+    endings = [ending.removeprefix('.') for ending in ('.py', *MARKUP)]
+    known = (name for name in installed_packages() if launchable_names(name))
+    return [*known, *FilesCompleter(endings)(prefix=prefix)]
 
 
 def launch_files(args: Namespace, _prefix: str) -> Iterable[str]:
-    """Return the stacks of the package on the line."""
+    """Return the stacks and launch files of the package on the line."""
     from amr_description.cli.launch_files import launchable_names
 
     return launchable_names(args.package_name)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 from fixtures.cli.commands import environment, python, running_node
+from fixtures.launch_files.packages import first_in_the_index, install_package
 import pytest
 from support.manager_host import ros_in_this_process, running_host
 from support.paths import ROOT
@@ -105,6 +106,17 @@ def test_what_needs_no_graph_does_without_rclpy(tmp_path, monkeypatch, line, wor
     assert [word.strip('{}') for word in found] == words
     assert 'amr_description.cli.completion' in imports
     assert 'rclpy' not in imports
+
+
+def test_launch_files_are_known_by_package_and_by_path(tmp_path, monkeypatch, complete):
+    for name, text in (('toys', {'launch/play.launch.xml': '<launch/>'}), ('toybox', {})):
+        install_package(tmp_path / 'prefix', name, **text)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'toy.launch.yaml').touch()
+    (tmp_path / 'toy.txt').touch()
+    with first_in_the_index(tmp_path / 'prefix'):
+        assert complete('ros2 launch toy') == ['toys', 'toy.launch.yaml']
+        assert complete('ros2 launch toys p') == ['play.launch.xml']
 
 
 def test_flags_stand_aside_until_a_dash_is_typed(complete):

@@ -4,8 +4,8 @@
 # ament_lint_auto as far as PyPI goes: the CMakeLists.txt that `ros2 pkg create` writes asks for it
 # where BUILD_TESTING is on, which is the default.
 
-# Find the test dependencies of package.xml that are here. Of the linters, PyPI has those for Python,
-# which only packages of Python call; so the others are named, once, and nothing fails for want of one.
+# Find the test dependencies of package.xml. PyPI has the linters of Python only, which packages of
+# Python call by themselves: what is not found is named, and is no error.
 macro(ament_lint_auto_find_test_dependencies)
   set(_amr_lint_missing "")
   if(NOT _AMENT_PACKAGE_NAME)

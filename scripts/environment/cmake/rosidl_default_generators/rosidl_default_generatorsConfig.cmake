@@ -1,8 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# find_package(rosidl_default_generators), of which PyPI has what makes C++, at 2.7 times the processor
-# time: here it is rosidl_generate_interfaces() of this package, for messages that Python uses.
+# rosidl_generate_interfaces() for messages that Python uses. What PyPI has of the original makes C++
+# as well, which takes 2.7 times the processor time.
 
 get_filename_component(_amr_prefix "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 set(_amr_python "${_amr_prefix}/bin/python")
