@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests in forked workers: each file in one process, and told of as if there were only one."""
 
-import os
-from pathlib import Path
 import re
 import signal
 import sys
+import time
 import xml.etree.ElementTree as ElementTree
 
+from fixtures.bringup.running import ends
 import pytest
 from support.forked_workers import together
-from support.running_programs import Program
+from support.running_programs import PATIENCE, Program
 
 CONFTEST = """
 import os, pathlib, pytest
@@ -129,12 +129,11 @@ def test_waits():
         time.sleep(0.05)
 """
     with run(tmp_path, waits=waits, good=GOOD) as program:
-        while not (tmp_path / 'waits').exists():
-            assert program.process.poll() is None, program.output
+        wait_for(tmp_path / 'waits', program)
         assert program.end(signal.SIGINT) == pytest.ExitCode.INTERRUPTED, program.output
     found = notes(tmp_path)
     assert [pid for (pid,) in of('test_waits', found)] in of('torn_down', found)
-    assert not any(is_running(pid) for _, pid in of('begin', found))
+    assert all(ends(int(pid), 0.0) for _, pid in of('begin', found))
 
 
 def test_workers_end_with_the_run_that_is_killed(tmp_path):
@@ -147,19 +146,18 @@ def test_waits():
 def test_not(): pass
 """
     with run(tmp_path, waits=waits, good=GOOD) as program:
-        while not (tmp_path / 'waits').exists():
-            assert program.process.poll() is None, program.output
+        wait_for(tmp_path / 'waits', program)
         program.signal(signal.SIGKILL)
         program.process.wait()
-        pids = [pid for _, pid in of('begin', notes(tmp_path))]
-        while any(is_running(pid) for pid in pids):
-            os.sched_yield()
+        assert all(ends(int(pid)) for _, pid in of('begin', notes(tmp_path)))
     found = notes(tmp_path)
     assert [pid for (pid,) in of('test_waits', found)] in of('torn_down', found)
 
 
-def is_running(pid):
-    try:
-        return Path('/proc', pid, 'stat').read_text().rpartition(')')[2].split()[0] != 'Z'
-    except FileNotFoundError:
-        return False
+def wait_for(file, program):
+    """Wait until a program has written a file."""
+    deadline = time.monotonic() + PATIENCE
+    while not file.exists():
+        assert program.process.poll() is None, program.output
+        assert time.monotonic() < deadline, program.output
+        time.sleep(0.01)

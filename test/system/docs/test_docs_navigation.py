@@ -73,18 +73,18 @@ def test_the_mux_starts_beside_any_robot(terminal):
 def test_what_is_typed_elsewhere_is_what_the_stack_says():
     source = (ROOT / 'amr_description/bringup/stacks/navigation.py').read_text(encoding='utf-8')
     said = ' '.join(source.replace('\\\\\n', ' ').split())
-    for line in re.findall(r'^(ros2 launch (?:nav2|slam)\S+ .*)$', ELSEWHERE, re.MULTILINE):
-        if 'bringup_launch' not in line:
-            assert line in said
+    lines = re.findall(r'^(ros2 launch (?:nav2|slam)\S+ .*)$', ELSEWHERE, re.MULTILINE)
+    assert [line for line in lines if line in said or 'bringup_launch' in line] == lines
+    assert len(lines) >= 2
     for file in ('nav2_params.yaml', 'mapper_params_online_async.yaml'):
         assert f'](../config/{file})' in ELSEWHERE
 
 
 def test_what_the_tables_say_is_in_the_files():
     text = (ROOT / 'config/twist_mux.yaml').read_text(encoding='utf-8')
-    for name, topic, priority in re.findall(
-        r'^\| (?:input|lock) `(\w+)` \| `/(\w+)` \| (\d+) \|', BETWEEN, re.MULTILINE
-    ):
+    rows = re.findall(r'^\| (?:input|lock) `(\w+)` \| `/(\w+)` \| (\d+) \|', BETWEEN, re.MULTILINE)
+    assert len(rows) == text.count('priority: ')
+    for name, topic, priority in rows:
         assert re.search(
             rf'{name}:\n\s+topic: {topic}\n\s+timeout: .*\n\s+priority: {priority}\n', text
         )
