@@ -17,6 +17,7 @@ examples:
 """
 
 from argparse import ArgumentParser, Namespace
+import os
 from pathlib import Path
 import sys
 
@@ -104,9 +105,11 @@ def main(args: Namespace) -> int:
         from amr_description.launch_api.launch_file import LaunchFile
         from amr_description.launch_api.original import launch_by_the_original
 
-        code = launch_by_the_original(Path(stack), arguments, show=args.show_args)
-        if code is not None:
-            return code
+        if not (args.print or args.launch_prefix):  # which only the bring-up knows here
+            os.environ |= environment.variables(args, os.environ)
+            code = launch_by_the_original(Path(stack), arguments, show=args.show_args)
+            if code is not None:
+                return code
         source = LaunchFile(Path(stack))
     options = [
         *(['--show-args'] if args.show_args else []),

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """``ros2 launch``: what is understood as a stack, what is told otherwise, and that it is one."""
 
+from argparse import ArgumentParser
+import os
 import re
 import signal
 
@@ -9,6 +11,7 @@ from fixtures.bringup.running import Bringup, install_toys, STACKS
 from fixtures.cli.commands import ros2
 import pytest
 
+from amr_description.cli import launch as launch_command
 from amr_description.cli.launch_files import (
     find_launch_file,
     is_launch_file,
@@ -286,6 +289,31 @@ def test_a_launch_file_is_shown_and_printed(share, launch_file):
         "sh-1: at once, optional\n    sh -c 'echo $GREETING; exit 0'\n"
         '    GREETING=good day\n    in /\nplain-2: when sh-1 exited, optional\n'
     )
+
+
+@pytest.mark.parametrize(
+    ('words', 'code', 'seen'),
+    [
+        ([], 7, 'LOCALHOST'),
+        (['--discovery', 'subnet'], 7, 'SUBNET'),
+        (['--print'], 5, None),
+        (['--launch-prefix', 'nice'], 5, None),
+    ],
+)
+def test_the_original_is_given_what_it_knows(launch_file, monkeypatch, words, code, seen):
+    variable, ranges = 'ROS_AUTOMATIC_DISCOVERY_RANGE', [None]
+    monkeypatch.setenv(variable, 'LOCALHOST')
+
+    def original(_path, _words, *, show):
+        ranges.append(os.environ[variable])
+        return 7
+
+    monkeypatch.setattr('amr_description.launch_api.original.launch_by_the_original', original)
+    monkeypatch.setattr('amr_description.bringup.main.main', lambda *_, **__: 5)
+    parser = ArgumentParser()
+    launch_command.add_arguments(parser)
+    assert launch_command.main(parser.parse_args([*words, launch_file])) == code
+    assert ranges[-1] == seen
 
 
 def test_a_launch_file_that_is_refused(share):
