@@ -66,4 +66,4 @@ class LaunchFile:
             ('WARNING', f"it declares no argument '{name}'{suggestion(name, sorted(known))}")
             for name in unknown
         ]
-        return replace(stack, notes=[*notes, *stack.notes], patience=None)
+        return replace(stack, notes=[*notes, *stack.notes])

@@ -112,13 +112,7 @@ def _map(map: str, world: str, x: float, y: float) -> list[Node]:
     if map == NONE:
         return []
     if map == 'world':
-        return [
-            Node(
-                'map_of_world',
-                arguments=[world, '--publish', '--start', word_of(x), word_of(y)],
-                parameters=[{'use_sim_time': True}],
-            )
-        ]
+        return [_map_of_world(world, x, y)]
     if not map.endswith(('.yaml', '.yml')):
         raise UsageError(f'map:={map}: it is world, {NONE}, or the .yaml file of a map')
     file = str(path_of(map, 'map'))
@@ -171,14 +165,18 @@ def _navigator(robot: SimulatedRobot, is_amr: bool) -> Node:
 def _on_obstacle_map(navigator: Node, world: str, x: float, y: float) -> list[Node]:
     """Return the navigator and the map that it plans on; the robot starts at x, y (m)."""
     remappings = [('map', _OBSTACLE_MAP)]
-    maps = Node(
-        'map_of_world',
-        name=_OBSTACLE_MAP,
-        arguments=[world, '--publish', '--start', word_of(x), word_of(y), *_BAND],
-        parameters=[{'use_sim_time': True}],
-        remappings=remappings,
-    )
+    maps = _map_of_world(world, x, y, *_BAND)
+    maps = replace(maps, name=_OBSTACLE_MAP, remappings=remappings)
     return [maps, replace(navigator, remappings=remappings)]
+
+
+def _map_of_world(world: str, x: float, y: float, *more: str) -> Node:
+    """Return the node that publishes a map of the world, which is free at x, y (m)."""
+    return Node(
+        'map_of_world',
+        arguments=[world, '--publish', '--start', word_of(x), word_of(y), *more],
+        parameters=[{'use_sim_time': True}],
+    )
 
 
 def _base_frame(description: str) -> str:
