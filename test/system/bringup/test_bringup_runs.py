@@ -9,6 +9,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 
 from fixtures.bringup.running import Bringup, ends, install_toys, STACKS
 import pytest
@@ -266,12 +267,20 @@ def test_a_tree_is_a_process_its_session_and_all_their_descendants():
 
 def test_a_busy_process_uses_the_processor():
     busy, idle = (
-        subprocess.Popen([sys.executable, '-c', code], stdin=subprocess.PIPE)
+        subprocess.Popen(
+            [sys.executable, '-c', f'print(flush=True)\n{code}'],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
         for code in ('while True: pass', 'input()')
     )
     try:
-        used = usages([busy.pid, idle.pid], 0.3)
-        assert used[busy.pid].cpu > used[idle.pid].cpu  # however many share it
+        for each in (busy, idle):  # to start takes processor time, too
+            assert each.stdout.readline() == b'\n'
+        deadline = time.monotonic() + PATIENCE
+        while not (used := usages([busy.pid, idle.pid], 0.3))[busy.pid].cpu:
+            assert time.monotonic() < deadline  # however many share it
+        assert used[idle.pid].cpu < used[busy.pid].cpu
         assert used[busy.pid].memory > 1_000_000
     finally:
         for process in (busy, idle):

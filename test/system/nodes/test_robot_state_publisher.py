@@ -187,18 +187,18 @@ def test_which_messages_are_published_depends_on_their_stamps_alone(start, liste
     listener.hear((10, 0))
     throttle, expected = Throttle(), []
     throttle.note(['joint1'], 10 * 10**9, 50_000_000)
+
+    def stamps():
+        return [nanoseconds(each.transforms[0].header.stamp) for each in listener.moving]
+
     for number in range(1, 61):
         stamp = 10 * 10**9 + number * 10_000_000
         if throttle.admit(['joint1'], stamp):
             throttle.note(['joint1'], stamp, 50_000_000)
             expected.append(stamp)
         listener.say(stamp=divmod(stamp, 10**9))
-        rclpy.spin_once(listener, timeout_sec=0.01)
-
-    def stamps():
-        return [nanoseconds(each.transforms[0].header.stamp) for each in listener.moving]
-
-    listener.until(lambda: stamps()[-1] == expected[-1])
+        if expected[-1:] == [stamp]:  # five wait in a queue, and every fifth is published
+            listener.until(lambda: stamps()[-1] == expected[-1])
     assert [each for each in stamps() if each > 10 * 10**9] == expected
 
 

@@ -108,7 +108,7 @@ def test_a_key_let_go_stops_the_robot_by_itself(robot, teleop):
     robot.until(lambda: (0.0, 0.0) in robot.commands)
     *moving, last = robot.commands
     assert moving == [(0.5, 0.0)] * len(moving)
-    assert 2 <= len(moving) <= 4
+    assert 1 <= len(moving) <= 4  # exactly four in test_teleop_keys.py, by a clock of its own
     assert last == (0.0, 0.0)
 
 
