@@ -5,7 +5,6 @@
 from abc import ABC, abstractmethod
 import asyncio
 from collections.abc import Callable
-from concurrent.futures import Future
 
 from amr_description.errors import AmrError
 from amr_description.ros.polled_topic import NumberedMessage, PolledTopic
@@ -22,7 +21,7 @@ class NewestFeed(ABC):
         self._fault: bytes | None = None
         self._rate = Rate()
         self._due = 0.0
-        self._work: Future[bytes] | asyncio.Future[bytes] | None = None
+        self._work: asyncio.Future[bytes] | None = None
         try:
             self._topic = subscribe()
         except AmrError as error:
@@ -70,7 +69,7 @@ class NewestFeed(ABC):
         self._work = asyncio.get_running_loop().run_in_executor(None, convert)
         return None
 
-    def _result(self, work: Future[bytes] | asyncio.Future[bytes]) -> bytes | None:
+    def _result(self, work: asyncio.Future[bytes]) -> bytes | None:
         if not work.done():
             return None
         self._work = None

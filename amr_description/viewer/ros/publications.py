@@ -38,6 +38,15 @@ class _Publication:
     timer: asyncio.TimerHandle | None = None
 
 
+@dataclass(slots=True, eq=False)
+class _Asked:
+    """A request for whose publisher a page waits."""
+
+    page: str
+    has_gone: bool = False
+    """Whether the page has, in the meantime."""
+
+
 class Publications:
     """
     All that pages publish by forms; on the server's thread.
@@ -62,16 +71,19 @@ class Publications:
         self._log = log
         self._of: dict[tuple[str, str], _Publication] = {}
         """(page, topic) -> what it publishes."""
+        self._asked: set[_Asked] = set()
+        self._making = asyncio.Lock()
+        """Two requests at once must not make two publishers on one topic of a page."""
 
     async def publish(self, page: str, request: Publish) -> str:
         """Publish; return one line about it. Raises AmrError."""
         topic, rate = request.topic, request.rate
-        if (refusal := self._refusal(topic)) is not None:
-            raise ViewerError(refusal)
+        self._check(topic)
         kind = message_type(request.message, f'The type of {shorten(topic)}')
         message = kind()
         stamps = set_fields(message, request.values)
         found = await self._publication(page, topic, kind, request.message)
+        self._check(topic)  # STOP may have been pressed in the meantime
         if found.timer is not None:
             found.timer.cancel()
             found.timer = None
@@ -102,8 +114,15 @@ class Publications:
 
     def forget(self, page: str) -> None:
         """A page has gone: what it published ends."""
+        for asked in self._asked:
+            asked.has_gone |= asked.page == page
         gone = [key for key in self._of if key[0] == page]
         self._end([self._of.pop(key) for key in gone])
+
+    def _check(self, topic: str) -> None:
+        """Raise ViewerError: the topic must not be published on now."""
+        if (refusal := self._refusal(topic)) is not None:
+            raise ViewerError(refusal)
 
     def _repeat(
         self, found: _Publication, topic: str, period: float, send: Callable[[], None]
@@ -125,6 +144,19 @@ class Publications:
         found.timer = loop.call_at(due, again, due)
 
     async def _publication(self, page: str, topic: str, kind: Any, name: str) -> _Publication:
+        """Return what a page publishes on a topic, made if need be. Raises ViewerError."""
+        asked = _Asked(page)
+        self._asked.add(asked)
+        try:
+            async with self._making:
+                return await self._known_or_made(asked, topic, kind, name)
+        finally:
+            self._asked.discard(asked)
+
+    async def _known_or_made(
+        self, asked: _Asked, topic: str, kind: Any, name: str
+    ) -> _Publication:
+        page = asked.page
         key = page, topic
         found = self._of.get(key)
         if found is not None and found.kind == name:
@@ -139,8 +171,12 @@ class Publications:
         publisher = await on_ros_thread(
             self._executor, lambda: self._node.create_publisher(kind, topic, _DEPTH)
         )
-        self._of[key] = _Publication(publisher, name)
-        return self._of[key]
+        made = _Publication(publisher, name)
+        if asked.has_gone:
+            self._end([made])
+            raise ViewerError(f'{page} has gone')
+        self._of[key] = made
+        return made
 
     def _end(self, publications: list[_Publication]) -> None:
         for each in publications:

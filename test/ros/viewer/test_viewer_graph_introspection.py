@@ -286,6 +286,40 @@ def test_what_is_published_at_a_rate_ends_with_its_page_or_a_stop(ros, heard):
     assert page.logged[0] == 'page 1 publishes geometry_msgs/msg/Twist on /cmd at 100 Hz'
 
 
+@pytest.mark.parametrize('happening', ['stop', 'gone'])
+def test_what_happens_while_the_publisher_is_made_counts(ros, heard, happening):
+    page, (_, other, _) = Page(ros), ros
+
+    async def use():
+        asked = asyncio.create_task(page.publications.publish('page 1', publish(rate=100.0)))
+        await asyncio.sleep(0)  # it has been asked for, and waits for its publisher
+        if happening == 'stop':
+            page.is_held = True
+        else:
+            page.publications.forget('page 1')
+        with pytest.raises(AmrError, match='a stop holds|page 1 has gone'):
+            await asked
+        page.publications.forget('page 1')
+        await come(lambda: other.count_publishers('/cmd') == 0)
+
+    asyncio.run(use())
+    assert heard == page.logged == []
+
+
+def test_two_requests_at_once_make_one_publisher(ros, heard):
+    page, (_, other, _) = Page(ros), ros
+
+    async def use():
+        await come(lambda: other.count_publishers('/cmd') == 0)  # those of other tests have gone
+        requests = [page.publications.publish('page 1', publish()) for _ in range(2)]
+        await asyncio.gather(*requests)
+        assert other.count_publishers('/cmd') == 1
+        page.publications.forget('page 1')
+        await come(lambda: other.count_publishers('/cmd') == 0)
+
+    asyncio.run(use())
+
+
 def test_a_stamp_of_now_is_that_of_the_clock_that_robots_have(ros):
     heard = []
     _, other, _ = ros
