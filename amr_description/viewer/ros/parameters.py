@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parameters of any node: listed with their bounds, and set; on the server's thread."""
 
+import asyncio
 from collections.abc import Mapping
 import math
 from typing import Any
@@ -20,7 +21,7 @@ from amr_description.text import shorten, unwrap
 from amr_description.viewer.introspection import ParameterInfo
 from amr_description.viewer.requests import SetParameter
 from amr_description.viewer.ros.on_thread import on_ros_thread
-from amr_description.viewer.ros.service_clients import ServiceClients
+from amr_description.viewer.ros.service_clients import ServiceClients, UnansweredError
 
 _TYPES = {
     'list_parameters': ListParameters,
@@ -55,9 +56,15 @@ class NodeParameters:
         self._services = services
         self._executor = executor
         self._node: str | None = None
+        self._asking = asyncio.Lock()
+        """Pages that ask two nodes at once would destroy each other's clients."""
 
     async def all_of(self, node: str) -> tuple[ParameterInfo, ...]:
         """Return the parameters of a node, by their names. Raises ViewerError."""
+        async with self._asking:
+            return await self._all_of(node)
+
+    async def _all_of(self, node: str) -> tuple[ParameterInfo, ...]:
         await self._connect(node)
         listed = await self._ask(node, 'list_parameters', ListParameters.Request())
         names = sorted(listed.result.names)
@@ -75,8 +82,12 @@ class NodeParameters:
 
     async def set(self, request: SetParameter) -> ParameterInfo:
         """Set a parameter; return what it is then. Raises ViewerError."""
-        node, name = request.node, request.name
-        parameter = Parameter(name=name, value=value_of(request.kind, request.value))
+        parameter = Parameter(name=request.name, value=value_of(request.kind, request.value))
+        async with self._asking:
+            return await self._set(request.node, parameter)
+
+    async def _set(self, node: str, parameter: Parameter) -> ParameterInfo:
+        name = parameter.name
         await self._connect(node)
         response = await self._ask(
             node, 'set_parameters', SetParameters.Request(parameters=[parameter])
@@ -114,11 +125,12 @@ class NodeParameters:
         for _ in range(_TRIES - 1):
             try:
                 return await self._services.call(name, request, _FIRST_TIMEOUT)
+            except UnansweredError:
+                continue
             except ViewerError as error:
-                if 'not answered' not in str(error):
-                    raise ViewerError(
-                        f'{shorten(node)} has no parameters to be asked for: {error}'
-                    ) from error
+                raise ViewerError(
+                    f'{shorten(node)} has no parameters to be asked for: {error}'
+                ) from error
         return await self._services.call(name, request, _FIRST_TIMEOUT)
 
 

@@ -107,6 +107,10 @@ _MANAGER_TYPES = {
 }
 
 
+class UnansweredError(ViewerError):
+    """A service has not answered in time."""
+
+
 class ServiceClients:
     """All clients, by the names of their services."""
 
@@ -142,7 +146,18 @@ class ServiceClients:
         return name in self._clients
 
     async def call(self, name: str, request: Any, timeout: float = _CALL_TIMEOUT) -> Any:
-        """Return the response; ``timeout`` in s. On the asyncio thread. Raises ViewerError."""
+        """
+        Return the response; on the asyncio thread.
+
+        Args:
+            name: Of the service.
+            request: To it.
+            timeout: s.
+
+        Raises:
+            UnansweredError: It has not answered in time.
+            ViewerError: It is not there.
+        """
         client = self._clients.get(name)
         if client is None:
             raise ViewerError(f'there is no service {name}; is its node running?')
@@ -161,7 +176,9 @@ class ServiceClients:
         try:
             await asyncio.wait_for(answered, timeout)
         except TimeoutError:
-            raise ViewerError(f'service {name} has not answered within {timeout:g} s') from None
+            raise UnansweredError(
+                f'service {name} has not answered within {timeout:g} s'
+            ) from None
         finally:
             client.remove_pending_request(pending)
         return pending.result()

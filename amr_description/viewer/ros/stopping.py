@@ -29,7 +29,7 @@ _REPEATED = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 _EVERY = 2
-"""The lock is published at every so manieth call of :meth:`Lock.hold`: 10 times per second."""
+"""The lock is published once in this many calls of :meth:`Lock.hold`: 10 times per second."""
 
 
 def lock_topic(robot: str) -> str:

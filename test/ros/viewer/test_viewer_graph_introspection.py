@@ -207,6 +207,17 @@ def test_parameters_are_listed_with_bounds_and_set(parameters):
     assert speed.value == 1.5
 
 
+def test_pages_may_ask_two_nodes_at_once(parameters):
+    async def use():
+        nodes = ('/robot1/other', '/viewer')
+        return await asyncio.gather(*map(parameters.all_of, nodes))
+
+    other, viewer = ({each.name for each in listed} for listed in asyncio.run(use()))
+    assert {'speed', 'use_sim_time'} <= other
+    assert 'use_sim_time' in viewer
+    assert 'speed' not in viewer
+
+
 @pytest.mark.parametrize(
     ('name', 'kind', 'value', 'reason'),
     [
