@@ -242,7 +242,7 @@ class MujocoWorld:
     def remove(self, name: str) -> None:
         """Remove a robot; its view becomes invalid. Raises SimulationError for an unknown name."""
         self.robot(name)
-        self.wrenches.clear(name)
+        self.wrenches.forget(name)
         self._detach(name)
         del self._robots[name]
         self._index_roots()

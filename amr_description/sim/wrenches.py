@@ -56,6 +56,11 @@ class Wrenches:
             if key[0] == robot and link in (None, key[1]):
                 del self._lasting[key]
 
+    def forget(self, robot: str) -> None:
+        """Drop all wrenches on a robot that leaves, those of the next step, too."""
+        self.clear(robot)
+        self._once = [each for each in self._once if each[0][0] != robot]
+
     def clear_all(self) -> None:
         """Hold no wrench on any link, and forget those of the next step."""
         self._lasting.clear()

@@ -73,9 +73,18 @@ def test_wrenches_end_with_a_reset_and_with_the_robot(end):
     world, _ = world_with_ball()
     world.wrenches.hold('ball', 'ball', WorldWrench((50.0, 0.0, 0.0), NONE))
     world.step(5)
+    world.wrenches.push('ball', 'ball', WorldWrench((50.0, 0.0, 0.0), NONE))
     end(world)
     world.step(5)
     assert motion(world, world.robot('ball'))[0][0] == 0.0
+
+
+def test_a_robot_that_leaves_before_it_was_pushed_holds_nothing_up():
+    world, _ = world_with_ball()
+    world.wrenches.push('ball', 'ball', WorldWrench((50.0, 0.0, 0.0), NONE))
+    world.remove('ball')
+    world.step(5)
+    assert world.time == round(5 * STEP * 1e9)
 
 
 def spawn_again(world):
