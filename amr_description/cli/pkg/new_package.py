@@ -39,6 +39,11 @@ class NewPackage:
             )
         if self.build_type == 'ament_python':
             self._check_python()
+        elif self.library and not _is_importable(self.name):
+            raise AmrError(
+                f'a package with a library of C++ cannot be called {self.name!r}, which is no '
+                f'namespace: {_importable(self.name)!r} may do'
+            )
         for what, name in (('node', self.node), ('library', self.library)):
             if name and not (_TARGET.fullmatch(name) and _is_importable(name)):
                 raise AmrError(
@@ -61,7 +66,7 @@ class NewPackage:
         if not _is_importable(self.name):
             raise AmrError(
                 f"an 'ament_python' package cannot be called {self.name!r}, which Python cannot"
-                f' import: {re.sub(r"[^a-zA-Z0-9_]", "_", self.name)!r} may do'
+                f' import: {_importable(self.name)!r} may do'
             )
 
     @property
@@ -73,6 +78,12 @@ class NewPackage:
 def is_email(text: str) -> bool:
     """Return whether ``package.xml`` may name this as the address of a maintainer."""
     return _EMAIL.fullmatch(text) is not None
+
+
+def _importable(name: str) -> str:
+    """Return a similar name that can be imported."""
+    better = re.sub(r'[^a-zA-Z0-9_]', '_', name)
+    return better if _is_importable(better) else f'my_{better}'
 
 
 def _is_importable(name: str) -> bool:

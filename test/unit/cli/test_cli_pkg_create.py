@@ -236,7 +236,9 @@ def test_nothing_is_overwritten(create, tmp_path):
     [
         (('test', '--build-type', 'ament_python'), 1, "can't be named 'test'"),
         (('a-b', '--build-type', 'ament_python'), 1, "'a_b' may do"),
-        (('class', '--build-type', 'ament_python'), 1, 'cannot import'),
+        (('class', '--build-type', 'ament_python'), 1, "cannot import: 'my_class' may do"),
+        (('4wd', '--build-type', 'ament_python'), 1, "'my_4wd' may do"),
+        (('a-b', '--library-name', 'l'), 1, "which is no namespace: 'a_b' may do"),
         (('a b',), 1, "a package cannot be called 'a b'"),
         (('../p',), 1, 'a package cannot be called'),
         (('p', '--node-name', 'my-node'), 1, 'as in my_node'),
