@@ -19,11 +19,11 @@ uint8 FIRST=1   # a constant
 string<=5 text "abc"
 float64[3] three [1, 2, 3]
 int32[<=4] most
-\tbyte[] blob  # a tab
+byte[]\tblob  # a tab
 Point2 other
 geometry_msgs/Point[] points
 string NAME="a b"
-""".replace('\tbyte', 'byte')
+"""
 
 
 def faults(text, path=MESSAGE):
