@@ -4,7 +4,6 @@
 
 from collections.abc import Callable, Sequence
 import re
-from typing import Any
 
 from amr_description.launch_api import logic, substitutions
 from amr_description.launch_api.locations import refusal
@@ -26,6 +25,13 @@ def _command(command: Argument, on_stderr: Argument | None = None) -> Substituti
     return substitutions.Command(command, on_stderr=on_stderr or 'fail')
 
 
+def _eval(expression: Argument, modules: Argument | None = None) -> Substitution:
+    if modules is None:
+        return logic.PythonExpression(expression)
+    text = ''.join(each.text for each in modules if isinstance(each, TextSubstitution))
+    return logic.PythonExpression(expression, [name.strip() for name in text.split(',')])
+
+
 _MAKERS: dict[str, Callable[..., Substitution]] = {
     'all': logic.AllSubstitution,
     'and': logic.AndSubstitution,
@@ -35,7 +41,7 @@ _MAKERS: dict[str, Callable[..., Substitution]] = {
     'dirname': substitutions.ThisLaunchFileDir,
     'env': _env,
     'equals': logic.EqualsSubstitution,
-    'eval': logic.PythonExpression,
+    'eval': _eval,
     'exec-in-pkg': substitutions.ExecutableInPackage,
     'file-content': substitutions.FileContent,
     'filename': substitutions.ThisLaunchFile,
@@ -108,6 +114,7 @@ def _substitution(text: str, at: int, where: str) -> tuple[Substitution, int]:
             where,
         )
     at = match.end() if match else at
+    is_quoted = text[at : at + 1] in ('"', "'")
     arguments: list[Argument] = []
     while at < len(text) and text[at] != ')':
         if text[at].isspace():
@@ -117,15 +124,18 @@ def _substitution(text: str, at: int, where: str) -> tuple[Substitution, int]:
         arguments.append(argument)
     if at >= len(text):
         raise refusal(f"'{text}': $({name} is not closed", where)
+    if name in ('eval', 'command') and not (is_quoted or _is_on_stderr(name, arguments[1:])):
+        arguments = _as_one(arguments)
     return _made(name, arguments, where), at + 1
 
 
-def _made(name: str, arguments: Sequence[Argument], where: str) -> Substitution:
-    given: Sequence[Any] = arguments
-    is_expression = name == 'eval' or (name == 'command' and not _is_on_stderr(arguments[1:]))
-    if is_expression and len(arguments) > 1:  # words without quotes are one
-        blank = [TextSubstitution(text=' ')]
-        given = [[each for one in arguments for each in (*one, *blank)][:-1]]
+def _as_one(words: Sequence[Argument]) -> list[Argument]:
+    """Return the words of an expression or a command, which were not quoted, as one argument."""
+    blank = TextSubstitution(text=' ')
+    return [[part for word in words for part in (*word, blank)][:-1]] if words else []
+
+
+def _made(name: str, given: Sequence[Argument], where: str) -> Substitution:
     try:
         made = _MAKERS[name](*given)
     except TypeError:
@@ -134,9 +144,9 @@ def _made(name: str, arguments: Sequence[Argument], where: str) -> Substitution:
     return made
 
 
-def _is_on_stderr(more: Sequence[Argument]) -> bool:
+def _is_on_stderr(name: str, more: Sequence[Argument]) -> bool:
     """Return whether what follows a command is its second argument, and no word of it."""
-    if len(more) != 1 or len(more[0]) != 1:
+    if name != 'command' or len(more) != 1 or len(more[0]) != 1:
         return False
     (part,) = more[0]
     return isinstance(part, TextSubstitution) and part.text in substitutions.ON_STDERR

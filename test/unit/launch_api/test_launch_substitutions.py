@@ -216,6 +216,8 @@ def test_a_parameter_file_with_substitutions(context, tmp_path):
         ('$(env NOPE_ $(var robot))', 'amr'),
         ("$(eval '$(var n) + 1')", '4'),
         ('$(eval $(var n) + 1)', '4'),
+        ("$(eval 'os.sep + str(floor(1.5))' 'os, math')", '/1'),
+        ('$(command echo $(var robot) ignore)', 'amr ignore\n'),
         ('$(equals $(var robot) amr)', 'true'),
         ('$(dirname)/x', '/pkg/launch/x'),
         ("$(command 'echo hi')", 'hi\n'),
@@ -234,6 +236,7 @@ def test_substitutions_in_texts(context, text, expected):
     [
         ('$(vars x)', r'f:3: \$\(vars\) is not understood here; did you mean var'),
         ('$(var x', r"f:3: '\$\(var x': \$\(var is not closed"),
+        ("$(eval '1' math 2)", r'f:3: \$\(eval …\): it does not take 3 arguments'),
         ('$(not a b)', r'f:3: \$\(not …\): it does not take 2 arguments'),
     ],
 )
