@@ -207,10 +207,10 @@ class Costmap:
         self._distances = self._static_distances.copy()
         self._add_distances(self._obstacles & ~self._static)
         d = self._distances
-        factor = np.exp(-self.settings.cost_scaling_factor * (d - self.inscribed_radius))
-        costs = np.where(
-            d <= self.settings.inflation_radius, (INSCRIBED - 1) * np.minimum(factor, 1.0), 0.0
-        ).astype(np.uint8)
+        reach = self.settings.inflation_radius
+        beyond = np.clip(d - self.inscribed_radius, 0.0, reach)  # finite, also without obstacles
+        factor = np.exp(-self.settings.cost_scaling_factor * beyond)
+        costs = np.where(d <= reach, (INSCRIBED - 1) * factor, 0.0).astype(np.uint8)
         costs[self._unknown] = NO_INFORMATION
         costs[d <= self.inscribed_radius] = INSCRIBED
         costs[d == 0.0] = LETHAL

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Costs around obstacles of map and scan, and the footprint that is put among them."""
 
+from dataclasses import replace
 import math
 
 import numpy as np
@@ -46,6 +47,18 @@ def test_costs_fall_as_those_of_the_inflation_layer():
     assert costs[20, 30] == int(252 * math.exp(-3.0 * (0.50 - 0.17)))
     assert costs[20, 31] == 0
     assert costs[0, 0] == NO_INFORMATION
+
+
+@pytest.mark.parametrize('factor', [0.0, 1e6])
+@pytest.mark.parametrize('occupied', [[], [(20, 20)]])
+@pytest.mark.filterwarnings('error')
+def test_costs_are_numbers_with_any_factor_and_without_obstacles(factor, occupied):
+    settings = replace(SETTINGS, cost_scaling_factor=factor)
+    costs = costmap(occupied=occupied, settings=settings).costs
+    assert costs[0, 0] == 0
+    if occupied:
+        assert costs[20, 23] == INSCRIBED
+        assert costs[20, 26] == (252 if factor == 0.0 else 0)
 
 
 def test_a_scan_marks_what_it_hits_and_clears_what_it_passes():
