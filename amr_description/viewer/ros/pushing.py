@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pushes the robots of a simulator, by the topics of Gazebo's system ApplyLinkWrench."""
 
+from contextlib import suppress
+
 from geometry_msgs.msg import Vector3, Wrench
+from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from ros_gz_interfaces.msg import Entity, EntityWrench
 
@@ -27,11 +30,13 @@ class Pushing:
     def push(self, entity: str, link: str, force: Vector, torque: Vector) -> None:
         """Push a link, N and N m in the axes of the world; without any, let it go."""
         target = Entity(name=f'{entity}::{link}', type=Entity.LINK)
-        if not any((*force, *torque)):
-            self._clear.publish(target)
-            return
-        wrench = Wrench(force=_vector3(force), torque=_vector3(torque))
-        self._wrench.publish(EntityWrench(entity=target, wrench=wrench))
+        # The ROS thread may have destroyed them in the meantime: the simulator has gone.
+        with suppress(InvalidHandle):
+            if not any((*force, *torque)):
+                self._clear.publish(target)
+                return
+            wrench = Wrench(force=_vector3(force), torque=_vector3(torque))
+            self._wrench.publish(EntityWrench(entity=target, wrench=wrench))
 
     def destroy(self) -> None:
         """Publish no more."""

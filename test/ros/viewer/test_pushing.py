@@ -1,0 +1,43 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pushes to a simulator: what its topics get, and one that comes after it has gone."""
+
+import pytest
+import rclpy
+from rclpy.node import Node
+from ros_gz_interfaces.msg import Entity, EntityWrench
+from support.running_programs import PATIENCE
+
+from amr_description.ros.service_calls import wait_until
+from amr_description.viewer.ros.pushing import Pushing
+
+NONE = (0.0, 0.0, 0.0)
+
+
+@pytest.fixture
+def node():
+    rclpy.init(args=[])
+    node = Node('viewer')
+    yield node
+    node.destroy_node()
+    rclpy.try_shutdown()
+
+
+def test_a_link_is_pushed_and_let_go_until_the_simulator_has_gone(node):
+    heard = []
+    for kind, topic in ((EntityWrench, 'wrench/persistent'), (Entity, 'wrench/clear')):
+        node.create_subscription(kind, f'/sim/{topic}', heard.append, 10)
+    pushing = Pushing(node, '/sim')
+
+    def is_heard(count):
+        return wait_until(node, lambda: len(heard) == count or None, timeout=PATIENCE)
+
+    pushing.push('amr', 'base_link', (1.0, 0.0, 0.0), NONE)
+    assert is_heard(1)
+    assert (heard[0].entity.name, heard[0].wrench.force.x) == ('amr::base_link', 1.0)
+    pushing.push('amr', 'base_link', NONE, NONE)
+    assert is_heard(2)
+    assert heard[1] == heard[0].entity
+    pushing.destroy()
+    for force in ((1.0, 0.0, 0.0), NONE):
+        pushing.push('amr', 'base_link', force, NONE)  # the server's thread may come late
