@@ -233,7 +233,11 @@ def _process_spec(
 def _program(node: Node, environment: Mapping[str, str | None]) -> Path:
     """Return the path of the program of a command. Raises BringupError."""
     word = str(node.command[0]) if node.command else ''
-    found = shutil.which(word, path=environment.get('PATH'))
+    is_path = '/' in word and node.folder is not None  # which counts from there
+    program = str(Path(node.folder or '', word)) if is_path else word
+    found = shutil.which(program, path=environment.get('PATH'))
+    if found is None and is_path:
+        raise BringupError(f"there is no program '{program}'")
     if found is None:
         raise BringupError(f"there is no command '{word}' on the PATH")
     return Path(found)

@@ -241,7 +241,7 @@ def heard(event):
 
 def generate_launch_description():
     words = ['echo $GREETING; exit ', LaunchConfiguration('code')]
-    first = ExecuteProcess(cmd=['sh', '-c', words],
+    first = ExecuteProcess(cmd=['bin/sh', '-c', words],
         additional_env={'GREETING': 'good day'}, cwd='/')
     plain = Node(package='toys', executable='plain', arguments=['130'])
     return LaunchDescription([
@@ -286,7 +286,7 @@ def test_a_launch_file_is_shown_and_printed(share, launch_file):
     assert (printed.returncode, printed.stderr) == (0, '')
     assert printed.stdout.startswith(
         "[WARNING] it declares no argument 'cod'; did you mean 'code'? known: code\n"
-        "sh-1: at once, optional\n    sh -c 'echo $GREETING; exit 0'\n"
+        "sh-1: at once, optional\n    bin/sh -c 'echo $GREETING; exit 0'\n"
         '    GREETING=good day\n    in /\nplain-2: when sh-1 exited, optional\n'
     )
 

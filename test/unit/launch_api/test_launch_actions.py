@@ -360,17 +360,23 @@ def test_any_process_and_what_is_never_started(launch):
 
 
 def test_commands(launch, toys):
-    stack = launch("""
+    stack = launch(
+        """
         ExecuteProcess(cmd=['sh', '-c', 'exit 3'], cwd='/tmp', respawn=True, respawn_delay=2.0),
         ExecuteProcess(cmd=[['echo ', LaunchConfiguration('x', default='1'), ' | cat']],
             shell=True, prefix='nice -n 5'),
         ExecuteProcess(cmd=['gz', 'sim', '-r', '-s', 'walls.sdf']),
-    """)
+        ExecuteProcess(cmd=['toys/a'], cwd=FOLDER),
+    """,
+        f'FOLDER = {str(toys / "lib")!r}',
+    )
     assert [line for *_, line in commands(stack)] == [
         "sh -c 'exit 3'",
         "nice -n 5 sh -c 'echo 1 | cat'",
         'mujoco_sim',
+        'toys/a',
     ]
+    assert process_specs(stack, toys)[3].executable == toys / 'lib/toys/a'
     assert stack.nodes[0].folder == '/tmp'
     assert stack.nodes[0].respawn.delay == 2.0
     assert whens(stack)['sh-1'] == 'at once, started again'
@@ -427,6 +433,7 @@ def test_opaque_functions_and_own_actions(launch):
         ("toy('a', colour='red')", r'my.launch.py:14: Node\(colour=…\) is not understood here'),
         ("toy('a', arguments='a b')", r"my.launch.py:14: arguments='a b': it takes a list"),
         ("ExecuteProcess(cmd=['nope_'])", "there is no command 'nope_' on the PATH"),
+        ("ExecuteProcess(cmd=['./nope_'], cwd='/tmp')", "there is no program '/tmp/nope_'"),
         ("ExecuteProcess(cmd=['sh'], cwd='/nope_')", "cwd='/nope_': there is no such folder"),
         ("*[toy('a')] * 2", 'the same action stands twice; make a second one'),
         ('3', '3 is no action'),
