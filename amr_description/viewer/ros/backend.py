@@ -383,6 +383,7 @@ class GraphBackend(GraphObserver):
     def world_received(self, simulator: str, message: MarkerArray) -> None:
         """Publish the shapes of the world."""
         self.server.publish(simulator, World(simulator, shapes_of(message)))
+        self.server.call(lambda: self._ask_for_world(simulator))
 
     def diagnostics_received(self, message: DiagnosticArray) -> None:
         """Publish the diagnostics of each robot."""
@@ -540,6 +541,11 @@ class GraphBackend(GraphObserver):
             rate = 0.0 if command is None else command.rate(now)
             found.append(Commanders(name, each.commanders, _whole(rate)))
         return found
+
+    def _ask_for_world(self, simulator: str) -> None:
+        if (client := self._simulators.get(simulator)) is not None:
+            client.has_new_world = True
+            self._start(self._refresh(client))
 
     async def _refresh(self, simulator: SimulatorClient) -> None:
         before = simulator.info

@@ -224,6 +224,8 @@ class SimulatorClient:
         """The name of the present world; empty: it is not told."""
         self.worlds: Mapping[str, str] = {}
         """The worlds that can be loaded: name -> URI."""
+        self.has_new_world = True
+        """Whether :attr:`world` is to be asked for: anybody may load another one."""
         self._services = services
         self._description_of = description_of
 
@@ -243,10 +245,18 @@ class SimulatorClient:
         if self._offers('get_entities'):
             entities = await self._call('get_entities', GetEntities.Request())
             self.entities = tuple(entities.entities)
-        if self._offers('load_world') and not self.worlds:
+        if not self._offers('load_world'):
+            return
+        if not self.worlds:
             found = await self._call('get_available_worlds', GetAvailableWorlds.Request())
             self.worlds = {each.name: each.world_resource.uri for each in found.worlds}
-            current = await self._call('get_current_world', GetCurrentWorld.Request())
+        if self.has_new_world:
+            self.has_new_world = False  # before it is asked: another one may come meanwhile
+            try:
+                current = await self._call('get_current_world', GetCurrentWorld.Request())
+            except ViewerError:
+                self.has_new_world = True
+                raise
             self.world = current.world.name
 
     async def handle(self, request: SimulatorRequest) -> str:

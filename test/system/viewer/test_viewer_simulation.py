@@ -13,10 +13,14 @@ import pytest
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from simulation_interfaces.msg import Result
+from simulation_interfaces.srv import LoadWorld
 from std_msgs.msg import String
 from support.page import Page
-from support.ros_processes import run, running
+from support.ros_processes import PATIENCE, run, running
 from test_viewer_server import url_of, viewer
+
+from amr_description.ros.service_calls import call
 
 SIMULATOR = '/mujoco_sim'
 CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
@@ -383,3 +387,15 @@ def test_a_deleted_robot_is_only_described(page, ask, driven):
     page.wait(lambda: robot(page, '/again') and robot(page, '/again')['present'])
     assert ask.simulator('delete', name='again')[0]
     page.wait(lambda: robot(page, '/again') is None)
+
+
+def test_a_world_that_somebody_else_loads_is_told(page):
+    assert simulators(page)[0]['world'] == 'empty'
+    other = Node('other')
+    response = call(
+        other, LoadWorld, f'{SIMULATOR}/load_world', LoadWorld.Request(uri='walls'),
+        timeout=PATIENCE,
+    )  # fmt: skip
+    assert response.result.result == Result.RESULT_OK, response.result.error_message
+    page.wait(lambda: simulators(page)[0]['world'] == 'walls')
+    other.destroy_node()
