@@ -103,12 +103,12 @@ def test_speeds_are_printed_and_used(robot, teleop):
 
 
 def test_a_key_let_go_stops_the_robot_by_itself(robot, teleop):
-    program = teleop('-p', 'key_timeout:=0.35')
+    program = teleop('-p', 'key_timeout:=1.05')
     program.type('i')
     robot.until(lambda: (0.0, 0.0) in robot.commands)
     *moving, last = robot.commands
     assert moving == [(0.5, 0.0)] * len(moving)
-    assert 1 <= len(moving) <= 4  # exactly four in test_teleop_keys.py, by a clock of its own
+    assert 2 <= len(moving) <= 11
     assert last == (0.0, 0.0)
 
 
