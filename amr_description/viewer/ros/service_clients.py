@@ -74,6 +74,9 @@ _SWITCH_TIMEOUT = 5.0
 _MANAGER_TIMEOUT = 20.0
 _MANAGER_PERIOD = 0.1
 
+_STEPS_FROM = {'': (LoadController, ConfigureController), 'unconfigured': (ConfigureController,)}
+"""What makes a controller inactive, by its state; one that is not there has none."""
+
 _TIMEOUTS = ('cmd_vel_timeout', 'reference_timeout')
 _WORLD_FRAME = 'world'
 _FACTOR = 'real_time_factor'
@@ -429,21 +432,27 @@ async def activate_controllers(
     """
     Load and activate controllers in a new controller manager, which is waited for.
 
+    Those that it brought up by itself, of the Gazebo sensors and plugins of a robot, are left as
+    they are.
+
     Raises:
         ViewerError: the new manager is not there, or cannot activate one of them.
     """
     deadline = asyncio.get_running_loop().time() + _MANAGER_TIMEOUT
-    while f'{manager}/load_controller' not in services:
+    needed = [f'{manager}/{name}' for name in ('list_controllers', 'load_controller')]
+    while not all(name in services for name in needed):
         if asyncio.get_running_loop().time() > deadline:
             raise ViewerError(f'{manager} is not there after {_MANAGER_TIMEOUT:g} s')
         await asyncio.sleep(_MANAGER_PERIOD)
+    listed = await services.call(f'{manager}/list_controllers', ListControllers.Request())
+    states = {each.name: each.state for each in listed.controller}
     for name in names:
-        for step in (LoadController, ConfigureController):
+        for step in _STEPS_FROM.get(states.get(name, ''), ()):
             verb = step.__name__.removesuffix('Controller').lower()
             response = await services.call(f'{manager}/{verb}_controller', step.Request(name=name))
             if not response.ok:
                 raise ViewerError(f'{manager} does not {verb} {name}; its log says why')
-    await _switch(services, manager, names, [])
+    await _switch(services, manager, [each for each in names if states.get(each) != 'active'], [])
 
 
 async def _switch(

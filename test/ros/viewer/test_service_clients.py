@@ -4,6 +4,13 @@
 
 import asyncio
 
+from controller_manager_msgs.msg import ControllerState
+from controller_manager_msgs.srv import (
+    ConfigureController,
+    ListControllers,
+    LoadController,
+    SwitchController,
+)
 import pytest
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters
@@ -12,7 +19,11 @@ from rclpy.node import Node
 from std_srvs.srv import Empty
 
 from amr_description.errors import ViewerError
-from amr_description.viewer.ros.service_clients import command_timeout, ServiceClients
+from amr_description.viewer.ros.service_clients import (
+    activate_controllers,
+    command_timeout,
+    ServiceClients,
+)
 
 ASKED = ['cmd_vel_timeout', 'reference_timeout']
 
@@ -56,3 +67,37 @@ def test_when_commands_expire_is_what_their_controller_says(values, timeout):
             return GetParameters.Response(values=values)
 
     assert asyncio.run(command_timeout(Services(), '/c/get_parameters')) == timeout
+
+
+class Manager:
+    """A controller manager, asked as :class:`ServiceClients` asks it."""
+
+    def __init__(self, **states):
+        self.states = states
+
+    def __contains__(self, name):
+        return name.startswith('/robot1/controller_manager/')
+
+    async def call(self, name, request, timeout=0.0):
+        if isinstance(request, ListControllers.Request):
+            found = [ControllerState(name=n, state=s) for n, s in self.states.items()]
+            return ListControllers.Response(controller=found)
+        if isinstance(request, LoadController.Request):
+            is_new = request.name not in self.states
+            self.states.setdefault(request.name, 'unconfigured')
+            return LoadController.Response(ok=is_new)
+        if isinstance(request, ConfigureController.Request):
+            is_loaded = self.states[request.name] == 'unconfigured'
+            self.states[request.name] = 'inactive'
+            return ConfigureController.Response(ok=is_loaded)
+        names = request.activate_controllers
+        is_possible = all(self.states[each] == 'inactive' for each in names)
+        self.states.update(dict.fromkeys(names, 'active'))
+        return SwitchController.Response(ok=is_possible)
+
+
+def test_controllers_that_a_robot_brings_along_are_no_hindrance_to_the_others():
+    names = ['joint_state_broadcaster', 'imu', 'range', 'wrench', 'diff_drive_controller']
+    manager = Manager(imu='active', range='inactive', wrench='unconfigured')
+    asyncio.run(activate_controllers(manager, '/robot1/controller_manager', names))
+    assert manager.states == dict.fromkeys(names, 'active')
