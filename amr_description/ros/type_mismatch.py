@@ -95,8 +95,9 @@ def is_wanted(found: Iterable[Listener], stamped: bool) -> bool:
 def choice(topic: str, found: Iterable[Listener], *, stamped: bool) -> str:
     """Return the line that says which type is published, for whom."""
     ours = TYPE_NAMES[stamped]
-    served = ' and '.join(each.node for each in found if each.type_name == ours)
-    return f'publishing {_short(ours)} on {topic}: {served} wants it'
+    served = [each.node for each in found if each.type_name == ours]
+    verb = 'wants' if len(served) == 1 else 'want'
+    return f'publishing {_short(ours)} on {topic}: {" and ".join(served)} {verb} it'
 
 
 def warnings(topic: str, found: Iterable[Listener], *, stamped: bool) -> list[str]:
@@ -112,7 +113,7 @@ def warnings(topic: str, found: Iterable[Listener], *, stamped: bool) -> list[st
 
 def nobody(topic: str, others: Sequence[str], *, stamped: bool) -> str:
     """Return the line that a topic has no listeners, and which topics have some."""
-    elsewhere = f'; -r cmd_vel:={" or ".join(others)} has' if others else ''
+    elsewhere = f'; -r cmd_vel:={" or ".join(others)} has one' if others else ''
     return (
         f'publishing {_short(TYPE_NAMES[stamped])} on {topic}, which has no listener '
         f'yet{elsewhere}'

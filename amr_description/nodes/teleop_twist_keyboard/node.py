@@ -100,6 +100,7 @@ class TeleopTwistKeyboard(PollingNode):
         self._announced: bool | None = None
         self._printed: set[str] = set()
         self._seeks_listeners = True
+        self._was_lonely = False  # and said so: it says, too, when that is over
 
     @property
     def alternative(self) -> str:
@@ -120,7 +121,8 @@ class TeleopTwistKeyboard(PollingNode):
             self._change_type(wants_stamped(found, otherwise=self._is_stamped))
         lines = warnings(topic, found, stamped=self._is_stamped)
         is_news = self._announced != self._is_stamped
-        if self._is_automatic and is_news and is_wanted(found, self._is_stamped):
+        is_asked = self._is_automatic or self._was_lonely
+        if is_asked and is_news and is_wanted(found, self._is_stamped):
             self._announced = self._is_stamped
             lines.insert(0, choice(topic, found, stamped=self._is_stamped))
         new = [line for line in lines if line not in self._printed]
@@ -142,6 +144,7 @@ class TeleopTwistKeyboard(PollingNode):
         return [self._nobody(others)] if others else []
 
     def _nobody(self, others: Sequence[str]) -> str:
+        self._was_lonely = True
         return nobody(self._commands.topic_name, others, stamped=self._is_stamped)
 
     def publish(self, velocity: Velocity) -> None:

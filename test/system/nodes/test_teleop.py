@@ -160,7 +160,7 @@ def test_who_comes_later_gets_the_type_that_it_wants(robot):
     with Program.module('teleop_twist_keyboard', terminal=True, env=XTERM) as program:
         program.expect(
             'publishing Twist on /cmd_vel, which has no listener yet; '
-            '-r cmd_vel:=/another/cmd_vel has'
+            '-r cmd_vel:=/another/cmd_vel has one'
         )
         program.expect('currently:')
         robot.listen(TwistStamped)
@@ -185,6 +185,16 @@ def test_a_topic_with_listeners_that_is_found_later_is_told_once(robot):
         robot.listen(Twist)
         program.expect('publishing Twist on /cmd_vel: /robot wants it')
         assert program.output.count('no listener yet') == 2
+        program.type('\x03')
+        assert program.end() == 0
+
+
+def test_of_a_type_that_is_given_too_it_is_told_when_somebody_listens_at_last(robot):
+    words = ['--ros-args', '-p', 'stamped:=true']
+    with Program.module('teleop_twist_keyboard', *words, terminal=True, env=XTERM) as program:
+        program.expect(r'publishing TwistStamped on /cmd_vel, which has no listener yet\r?\n')
+        robot.listen(TwistStamped)
+        program.expect('publishing TwistStamped on /cmd_vel: /robot wants it')
         program.type('\x03')
         assert program.end() == 0
 
