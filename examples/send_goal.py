@@ -1,26 +1,49 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Send the robot to a pose: ``python send_goal.py X Y``, m in the frame map. Nav2 will do, too."""
+"""
+Send the robot to a pose: ``python send_goal.py X Y``, m in the frame map. Nav2 will do, too.
+
+Ctrl-C cancels the goal, and the robot stops.
+"""
 
 import sys
 
 from nav2_msgs.action import NavigateToPose
 import rclpy
 from rclpy.action import ActionClient
+from rclpy.signals import SignalHandlerOptions
 
-rclpy.init()
-node = rclpy.create_node('send_goal')
-client = ActionClient(node, NavigateToPose, 'navigate_to_pose')
-client.wait_for_server()
+try:
+    x, y = map(float, sys.argv[1:])
+except ValueError:
+    sys.exit('python send_goal.py X Y: two numbers, m in the frame map')
 goal = NavigateToPose.Goal()
 goal.pose.header.frame_id = 'map'
-goal.pose.pose.position.x, goal.pose.pose.position.y = float(sys.argv[1]), float(sys.argv[2])
-sent = client.send_goal_async(
-    goal, lambda message: print(f'{message.feedback.distance_remaining:.2f} m left')
-)
-rclpy.spin_until_future_complete(node, sent)
-ended = sent.result().get_result_async()
-rclpy.spin_until_future_complete(node, ended)
-result = ended.result().result
+goal.pose.pose.position.x, goal.pose.pose.position.y = x, y
+
+
+def wait(future):
+    """Return what is answered. Ctrl-C is noticed between two looks."""
+    while not future.done():
+        rclpy.spin_until_future_complete(node, future, timeout_sec=0.1)
+    return future.result()
+
+
+# At Ctrl-C the node is needed once more: rclpy must not end it.
+rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+node = rclpy.create_node('send_goal')
+client = ActionClient(node, NavigateToPose, 'navigate_to_pose')
+sent = None
+try:
+    while not client.wait_for_server(1.0):
+        print('waiting for navigate_to_pose: scripts/run navigation, or Nav2')
+    sent = client.send_goal_async(
+        goal, lambda message: print(f'{message.feedback.distance_remaining:.2f} m left')
+    )
+    result = wait(wait(sent).get_result_async()).result
+except KeyboardInterrupt:
+    if sent is not None:
+        wait(wait(sent).cancel_goal_async())
+    sys.exit('cancelled')
 print(result.error_msg or 'there')
 sys.exit(result.error_code != NavigateToPose.Result.NONE)
