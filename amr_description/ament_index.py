@@ -68,6 +68,7 @@ def package_prefix(package: str) -> Path:
         searched = ', '.join(map(str, prefixes()))
         raise ResourceError(
             f"Package '{shorten(package)}' not found, searching: {searched}"
+            + did_you_mean(package, get_packages_with_prefixes())
         ) from error
 
 

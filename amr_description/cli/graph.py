@@ -60,7 +60,8 @@ def only_type_of(node: Node, topic: str) -> str:
     if not types:
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
         others = namesakes(node, topic, node.count_publishers)
-        there = f'; there is {", ".join(others)}' if others else ''
+        published = [name for name, _ in topics(node) if node.count_publishers(name)]
+        there = f'; there is {", ".join(others)}' if others else did_you_mean(topic, published)
         raise AmrError(f'Could not determine the type for the passed topic{there}')
     if len(types) > 1:
         raise AmrError(

@@ -101,10 +101,13 @@ def _only_one(executables: Sequence[Path], package: str, name: str) -> Path:
     """Return the one of that name. Raises AmrError."""
     paths = [path for path in executables if path.name == name]
     if not paths:
-        names = ', '.join(sorted({path.name for path in executables}))
+        from amr_description.text import did_you_mean
+
+        names = sorted({path.name for path in executables})
         raise AmrError(
             f"No executable found: package '{package}' has no '{name}', "
-            + (f'it has {names}' if names else 'nor any other')
+            + (f'it has {", ".join(names)}' if names else 'nor any other')
+            + did_you_mean(name, names)
         )
     if len(paths) > 1:
         raise AmrError('\n'.join(['Multiple executables found:', *(f'- {p}' for p in paths)]))

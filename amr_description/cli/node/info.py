@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from amr_description.cli.arguments import add_graph_arguments
 from amr_description.errors import AmrError
+from amr_description.text import did_you_mean
 
 if TYPE_CHECKING:
     from amr_description.cli.graph import NodeName
@@ -40,7 +41,8 @@ def main(args: Namespace) -> int:
         wait_for_discovery(session, args.spin_time, lambda: bool(named()))
         found = named()
         if not found:
-            raise AmrError(f"Unable to find node '{args.node_name}'")
+            others = [node.full_name for node in graph.nodes(session.node)]
+            raise AmrError(f"Unable to find node '{args.node_name}'{did_you_mean(name, others)}")
         if len(found) > 1:
             print(
                 f'There are {len(found)} nodes in the graph with the exact name "{name}". You '

@@ -96,7 +96,7 @@ def test_executables_are_found_in_folders_too(run):
         (('books', 'x'), 'No executable found'),
         (('toys', 'buried'), 'No executable found'),
         (('toys', 'notes.txt'), 'No executable found'),
-        (('toys', 'deeper'), 'No executable found'),
+        (('toys', 'dep'), "No executable found: package 'toys' has no 'dep', it has "),
         (('--prefix', 'no_such_command -x', 'toys', 'deep'), "--prefix 'no_such_command -x'"),
     ],
 )

@@ -51,6 +51,12 @@ def test_a_topic_of_that_last_word_is_named(fixture_node):
     )
 
 
+def test_a_topic_of_a_similar_name_is_named(fixture_node):
+    assert ros2('topic', 'echo', '/odm').stderr == (
+        'Could not determine the type for the passed topic; did you mean /odom?\n'
+    )
+
+
 def test_a_publisher_of_another_type_is_told(fixture_node):
     twist = 'geometry_msgs/msg/Twist'
     with started('topic', 'pub', '--once', COMMAND, twist, '{linear: {x: 1}}') as program:

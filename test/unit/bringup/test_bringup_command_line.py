@@ -77,7 +77,10 @@ def refuses(text, **changes):
 def test_what_is_missing_is_reported_before_anything_starts(prefix, monkeypatch):
     libexec = "executable 'wrker' not found on the libexec directory '.*/lib/toys'"
     refuses(f"{libexec}; did you mean 'worker'\\? known: .*, plain, step", executable='wrker')
-    refuses("Package 'toyz' not found, searching: .*/other, .*/toys", package='toyz')
+    refuses(
+        "Package 'toyz' not found, searching: .*/other, .*/toys; did you mean toys\\?",
+        package='toyz',
+    )
     refuses("'no.yaml': no such file: /", parameters=['no.yaml'])
     (prefix / 'lib/toys/step').chmod(0o644)
     refuses("executable 'step' not found")
