@@ -7,11 +7,13 @@ Ctrl-C cancels the goal, and the robot stops.
 """
 
 import sys
+from typing import Any
 
 from nav2_msgs.action import NavigateToPose
 import rclpy
 from rclpy.action import ActionClient
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 
 try:
     x, y = map(float, sys.argv[1:])
@@ -22,7 +24,7 @@ goal.pose.header.frame_id = 'map'
 goal.pose.pose.position.x, goal.pose.pose.position.y = x, y
 
 
-def wait(future):
+def wait(future: Future) -> Any:
     """Return what is answered. Ctrl-C is noticed between two looks."""
     while not future.done():
         rclpy.spin_until_future_complete(node, future, timeout_sec=0.1)
