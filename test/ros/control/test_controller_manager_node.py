@@ -17,6 +17,7 @@ from std_msgs.msg import String
 from support.control_fakes import WHEELS
 from support.manager_host import Host, PERIOD, ros_in_this_process, running_host, YAML
 from support.paths import TESTS
+from support.running_programs import PATIENCE
 
 from amr_description.control.ros.encoders import filling
 from amr_description.control.ros.loop_publisher import LoopPublisher
@@ -82,7 +83,11 @@ def test_topics_have_the_names_and_the_qos_that_the_original_has(host):
     host.activate('joint_state_broadcaster', 'diff_drive_controller')
     publishers = host.client_node.get_publishers_info_by_topic
     (odom,) = wait_until(
-        host.client_node, lambda: publishers('/odom') or None, lambda: None, every=1.0, timeout=5.0
+        host.client_node,
+        lambda: publishers('/odom') or None,
+        lambda: None,
+        every=1.0,
+        timeout=PATIENCE,
     )
     (joints,) = publishers('/joint_states')
     for endpoint, node in ((odom, 'diff_drive_controller'), (joints, 'joint_state_broadcaster')):
@@ -108,7 +113,7 @@ def test_nodes_say_sim_time_but_do_not_subscribe_to_the_clock(host):
             lambda: node.get_clock().now().nanoseconds > before or None,  # noqa: B023
             lambda: None,
             every=1.0,
-            timeout=5.0,
+            timeout=PATIENCE,
         )
         after = node.get_clock().now().nanoseconds
         assert before < after <= host.loop_thread.loop.time
@@ -122,18 +127,18 @@ def test_a_slow_configure_keeps_nobody_waiting(host):
     future = host.client_node.create_client(
         srv.ConfigureController, '/controller_manager/configure_controller'
     ).call_async(srv.ConfigureController.Request(name='slow'))
-    assert third_party.Slow.configuring.wait(5.0)
+    assert third_party.Slow.configuring.wait(PATIENCE)
     assert host.client.states() == {'slow': 'unconfigured'}
     reads = host.hardware.count('read')
     host.activate('joint_state_broadcaster')
     assert wait_until(
-        host.client_node, lambda: host.hardware.count('read') > reads + 2 or None, timeout=5.0
+        host.client_node, lambda: host.hardware.count('read') > reads + 2 or None, timeout=PATIENCE
     )
     assert not host.client.unload('slow')
     assert 'it is being configured' in host.client.reasons('slow')
     assert not future.done()
     third_party.Slow.let.set()
-    rclpy.spin_until_future_complete(host.client_node, future, timeout_sec=5.0)
+    rclpy.spin_until_future_complete(host.client_node, future, timeout_sec=PATIENCE)
     assert future.result().ok
     assert host.client.states()['slow'] == 'inactive'
 
@@ -249,7 +254,7 @@ def test_a_parameter_is_checked_when_set_and_counts_at_the_next_configure(host):
         lambda: publishers('/diff_drive_controller/cmd_vel_out') or None,
         lambda: None,
         every=1.0,
-        timeout=5.0,
+        timeout=PATIENCE,
     )
 
 
@@ -313,7 +318,7 @@ def test_a_failing_cycle_of_the_loop_ends_the_process_with_the_motors_stopped(ho
     told = threading.Event()
     host.loop_thread.on_failure = told.set
     monkeypatch.setattr(host.loop_thread.loop, 'tick', break_down)
-    assert told.wait(5.0)
+    assert told.wait(PATIENCE)
     host.loop_thread.stop()
     assert host.loop_thread.failed
     assert set(host.hardware.written.values()) == {0.0}
@@ -330,7 +335,7 @@ def test_converters_that_fail_end_nothing(host, stderr):
         said = '\n'.join(line for line in stderr().splitlines() if 'TypeError' in line)
         return "on '/babbler/said'" in said and "on '~/heard'" in said or None
 
-    assert wait_until(host.client_node, complained, lambda: None, every=1.0, timeout=5.0)
+    assert wait_until(host.client_node, complained, lambda: None, every=1.0, timeout=PATIENCE)
     assert not host.loop_thread.failed
     assert host.client.states() == {'babbler': 'active'}
 
@@ -353,7 +358,7 @@ def test_an_optional_topic_without_its_message_package_is_left_out(host, stderr)
     def warned():
         return "'~/said' is not published: " in stderr() or None
 
-    assert wait_until(host.client_node, warned, lambda: None, timeout=5.0)
+    assert wait_until(host.client_node, warned, lambda: None, timeout=PATIENCE)
 
 
 def test_a_switch_that_raises_anything_is_answered(host, monkeypatch):

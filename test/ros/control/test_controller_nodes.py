@@ -8,6 +8,7 @@ from rcl_interfaces.msg import LoggerLevel
 from rcl_interfaces.srv import SetLoggerLevels
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from support.manager_host import ros_in_this_process, running_host
+from support.running_programs import PATIENCE
 
 from amr_description.control.contracts import Severity
 from amr_description.ros.service_calls import call, wait_until
@@ -25,13 +26,13 @@ def test_transitions_are_published_as_a_lifecycle_node_does(host):
     topic = '/diff_drive_controller/transition_event'
     host.client_node.create_subscription(TransitionEvent, topic, events.append, 10)
     publishers = host.client_node.get_publishers_info_by_topic
-    seen = wait_until(host.client_node, lambda: publishers(topic) or None, timeout=5.0)
+    seen = wait_until(host.client_node, lambda: publishers(topic) or None, timeout=PATIENCE)
     assert seen[0].qos_profile.reliability == ReliabilityPolicy.RELIABLE
     assert seen[0].qos_profile.durability == DurabilityPolicy.VOLATILE
     assert host.client.configure('diff_drive_controller')
     assert host.client.switch(activate=['diff_drive_controller']) is None
     assert host.client.switch(deactivate=['diff_drive_controller']) is None
-    wait_until(host.client_node, lambda: len(events) >= 6 or None, timeout=5.0)
+    wait_until(host.client_node, lambda: len(events) >= 6 or None, timeout=PATIENCE)
     assert [
         (e.start_state.label, e.transition.id, e.transition.label, e.goal_state.label)
         for e in events
@@ -51,7 +52,7 @@ def test_a_component_has_a_node_and_says_what_it_says_under_its_name(host, stder
     wait_until(
         host.client_node,
         lambda: '[hardware]: the motors are warm' in stderr() or None,
-        timeout=5.0,
+        timeout=PATIENCE,
     )
 
 
@@ -71,7 +72,7 @@ def test_logger_levels_set_by_service_hold_for_the_log_port(host, stderr):
     def last_is_there():
         return '[controller_manager]: the whole story' in stderr() or None
 
-    assert wait_until(host.client_node, last_is_there, timeout=5.0)
+    assert wait_until(host.client_node, last_is_there, timeout=PATIENCE)
     assert "Configuring controller: 'joint_state_broadcaster'" in stderr()
     assert "'joints' or 'interfaces' parameter is empty" not in stderr()
 
@@ -96,5 +97,5 @@ def test_is_async_is_taken_with_a_warning(host, stderr):
     def warned():
         return [line for line in stderr().splitlines() if 'is_async is true' in line] or None
 
-    (line,) = wait_until(host.client_node, warned, timeout=5.0)
+    (line,) = wait_until(host.client_node, warned, timeout=PATIENCE)
     assert line.startswith('[WARN]')

@@ -12,6 +12,7 @@ from support.control_fakes import FakeLog, LEFT, RIGHT
 from support.manager_host import ros_in_this_process
 from support.paths import ROOT
 from support.ros_processes import run
+from support.running_programs import PATIENCE
 from support.serving import serving
 
 from amr_description.bringup.stacks.hardware import swap_hardware
@@ -50,7 +51,7 @@ class Wire:
     def said(self, *texts):
         """Spin until each of the texts has been logged; return all that was, and forget it."""
         while not all(text in '\n'.join(self.log.texts()) for text in texts):
-            self.executor.spin_once(timeout_sec=5.0)
+            self.executor.spin_once(timeout_sec=PATIENCE)
         lines = '\n'.join(self.log.texts())
         self.log.lines.clear()
         return lines
@@ -101,7 +102,7 @@ def test_what_cannot_be_used_is_refused_and_the_next_one_is_taken(wire):
 def test_a_spawned_robot_is_only_contradicted_by_another_description(wire):
     DescriptionSource(wire.node, wire.log, robot=parse(GOOD))
     wire.publisher.publish(String(data=GOOD + '\n'))
-    wire.executor.spin_once(timeout_sec=5.0)
+    wire.executor.spin_once(timeout_sec=PATIENCE)
     assert wire.log.texts() == []
     wire.publisher.publish(String(data=GOOD.replace('cart', 'other')))
     wire.said(IGNORED)
@@ -125,7 +126,7 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
             robot.start()
             with serving(executor):
                 publisher.publish(String(data=GOOD.replace('mock_components', 'no_such_package')))
-                assert wait_until(observer, refused, timeout=10.0)
+                assert wait_until(observer, refused, timeout=PATIENCE)
                 assert "'no_such_package/GenericSystem' is not known" in stderr()
                 assert '/controller_manager/list_controllers' not in service_names()
                 assert 'cart' not in observer.get_node_names()
@@ -133,7 +134,7 @@ def test_services_come_once_the_hardware_is_up_and_failed_components_leave_nothi
                 assert wait_until(
                     observer,
                     lambda: '/controller_manager/list_controllers' in service_names() or None,
-                    timeout=10.0,
+                    timeout=PATIENCE,
                 )
                 assert 'cart' in observer.get_node_names()
         finally:
@@ -156,7 +157,7 @@ def test_who_waits_for_a_clock_says_so_and_whose(stderr, monkeypatch, publisher,
                 simulator.create_publisher(Clock, '/clock', 1)
             robot.start()
             while 'the controllers stand still' not in stderr():
-                executor.spin_once(timeout_sec=5.0)
+                executor.spin_once(timeout_sec=PATIENCE)
         finally:
             executor.shutdown()
             robot.close()

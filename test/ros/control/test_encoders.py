@@ -12,7 +12,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message, serialize_message
-from support.ros_processes import PATIENCE
+from support.running_programs import PATIENCE
 
 from amr_description.control.contracts import Port, Qos
 from amr_description.control.ros import converters, encoders

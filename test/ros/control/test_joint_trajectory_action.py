@@ -11,7 +11,7 @@ import pytest
 from rclpy.action import ActionClient
 from support.control_fakes import WHEELS
 from support.manager_host import ros_in_this_process, running_host
-from support.ros_processes import PATIENCE
+from support.running_programs import PATIENCE
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from amr_description.ros.service_calls import call, wait_until

@@ -7,7 +7,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
-from support.ros_processes import PATIENCE
+from support.running_programs import PATIENCE
 
 from amr_description.control.ros.encoders import filling
 from amr_description.control.ros.loop_publisher import LOOK_PERIOD, LoopPublisher, TOPICS_A_LOOK

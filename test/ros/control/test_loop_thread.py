@@ -7,6 +7,7 @@ import time
 from types import SimpleNamespace
 
 import pytest
+from support.running_programs import PATIENCE
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.ros import pacing
@@ -160,7 +161,7 @@ def test_whatever_ends_the_loop_every_robot_is_stopped_and_the_process_hears_of_
     dead = LoopThread(CallQueue(), SimpleNamespace(wake=ended.set))
     dead.loop = EndingLoop(error, [Manager(SystemExit(4)), Manager()])
     dead.start()
-    assert ended.wait(10.0)
+    assert ended.wait(PATIENCE)
     dead.stop()
     assert dead.failed
     assert all(manager.is_down for manager in dead.loop.managers)

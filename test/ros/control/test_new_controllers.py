@@ -12,6 +12,7 @@ from std_msgs.msg import Float64, Float64MultiArray
 from support.control_fakes import WHEELS
 from support.manager_host import ros_in_this_process, running_host
 from support.paths import TESTS
+from support.running_programs import PATIENCE
 
 from amr_description.ros.service_calls import wait_until
 
@@ -52,7 +53,9 @@ def left_alone(host):
 
 def until(host, condition, say=lambda: None):
     """Wait for ``condition()`` to be true, calling ``say`` every 0.1 s; fail if it never is."""
-    found = wait_until(host.client_node, lambda: condition() or None, say, every=0.1, timeout=10.0)
+    found = wait_until(
+        host.client_node, lambda: condition() or None, say, every=0.1, timeout=PATIENCE
+    )
     assert found
 
 

@@ -11,7 +11,7 @@ from rclpy.action import ActionClient
 from rclpy.time import Time
 from std_srvs.srv import SetBool
 from support.manager_host import ros_in_this_process, running_host
-from support.ros_processes import PATIENCE
+from support.running_programs import PATIENCE
 
 from amr_description.ros.service_calls import call, wait_until
 
@@ -120,7 +120,9 @@ def test_the_executor_sleeps_between_goals_though_the_clock_runs(host, client):
 
 def test_a_goal_is_rejected_with_the_reason_in_the_log(host, client, stderr):
     assert not send(host, client, -1).accepted
-    wait_until(host.client_node, lambda: 'cannot count to -1' in stderr() or None, timeout=5.0)
+    wait_until(
+        host.client_node, lambda: 'cannot count to -1' in stderr() or None, timeout=PATIENCE
+    )
 
 
 def test_an_inactive_controller_takes_no_goal(host, client, stderr):

@@ -6,7 +6,7 @@ The page in a real browser, over a real simulation: what a person sees, presses 
 What the robot does is heard on its topics by the test itself, not believed of the page.
 """
 
-from contextlib import contextmanager, ExitStack
+from contextlib import contextmanager, ExitStack, suppress
 from math import dist, hypot
 import os
 from pathlib import Path
@@ -419,8 +419,9 @@ def descendants(parent, name):
     found = []
     for path in Path('/proc').glob(f'{parent}/task/*/children'):
         for child in path.read_text().split():
-            if f'/{name}\0' in Path(f'/proc/{child}/cmdline').read_text():
-                found.append(int(child))
+            with suppress(FileNotFoundError, ProcessLookupError):  # it has ended since
+                if f'/{name}\0' in Path(f'/proc/{child}/cmdline').read_text():
+                    found.append(int(child))
             found += descendants(child, name)
     return found
 
