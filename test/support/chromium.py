@@ -191,8 +191,9 @@ class Chromium:
         try:
             for text in self._connection:
                 message = json.loads(text)
-                if answer := self._answers.get(message.get('id')):
-                    answer.put(message)
+                if 'id' in message:
+                    if answer := self._answers.get(message['id']):  # else: it came too late
+                        answer.put(message)
                 elif page := self._pages.get(message.get('sessionId')):
                     page.hear(message['method'], message['params'])
         except ConnectionClosed:
