@@ -25,7 +25,8 @@ INTERFACES = ROOT / 'interfaces'
 FIXTURES = TESTS / 'fixtures' / 'interfaces'
 # The originals' hashes: control_msgs, simulation_interfaces, TFMessage and those of other packages
 # as published, the rest as built by CMake and by this build alike; pal_statistics_msgs by this
-# build; example_interfaces: AddTwoInts as published, the rest by this build (see the tests below).
+# build; example_interfaces: AddTwoInts as published, the rest by this build (see the tests below);
+# rosbag2_interfaces: Play, Burst and both events as published, the rest by this build.
 HASHES = json.loads((FIXTURES / 'type_hashes.json').read_text())
 # Of a message or a part of a service or action: its constants, and the defaults of its fields,
 # which no hash tells.
