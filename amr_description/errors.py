@@ -33,6 +33,7 @@ Every error that this package raises on purpose.
     ├── CalibrationError     the measured drive does not determine the parameters
     ├── InterfaceBuildError  an interface package cannot be built
     │   └── CompilerError    … because there is no C and C++ compiler that works (exit code 3)
+    ├── BagError             a recording cannot be read, written or made
     ├── ViewerError          the browser page's server cannot do what was asked
     │   └── ProtocolError    a message of a page is malformed
     ├── BringupError         a stack is malformed, or one of its steps failed
@@ -181,6 +182,10 @@ class CompilerError(InterfaceBuildError):
     """There is no C and C++ compiler that works."""
 
     exit_code = 3
+
+
+class BagError(AmrError):
+    """A recording of topics, or a file that belongs to one, cannot be used."""
 
 
 class ViewerError(AmrError):

@@ -23,7 +23,15 @@ from environment.virtual_environment import pinned_versions, python_of, WITHOUT_
 
 from releasing import ReleaseError
 
-DEVELOPMENT = ('hypothesis', 'ruff', 'sortedcontainers')
+DEVELOPMENT = (
+    'apsw',
+    'backports.zstd',
+    'hypothesis',
+    'rosbags',
+    'ruamel.yaml',
+    'ruff',
+    'sortedcontainers',
+)
 """What only the tests and the code of this project need."""
 PLATFORMS = (
     *(f'manylinux_2_{minor}_x86_64' for minor in range(28, 4, -1)),

@@ -43,6 +43,8 @@ ARROWS = {
     'viewer': {'model'},
     'navigation': {'model'},
     'ros': {'control', 'model'},
+    'bag': set(),
+    'bag/ros': {'bag', 'ros', 'control', 'model'},
     'tf2_ros': {'ros', 'model'},
     'message_filters': set(),
     'sensor_msgs_py': set(),
@@ -57,6 +59,8 @@ ARROWS = {
     # Its actions are translated into stacks.
     'launch_api': {'bringup'},
     'cli': {
+        'bag',
+        'bag/ros',
         'bringup',
         'launch_api',
         'control/ros',
@@ -75,10 +79,10 @@ ABOVE_NODES = {'bringup', 'launch_api', 'cli', 'testing', 'workspace', 'amr_desc
 ARROWS['nodes'] = ARROWS.keys() - ABOVE_NODES - FOR_USERS
 ROS = {
     'control/ros', 'sim/ros', 'viewer/ros', 'navigation/ros', 'ros', 'tf2_ros',
-    'message_filters', 'sensor_msgs_py', 'nodes', 'cli', 'testing',
+    'bag/ros', 'message_filters', 'sensor_msgs_py', 'nodes', 'cli', 'testing',
 }  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
-PURE = {'base', 'model', 'control', 'controllers', 'navigation'}
+PURE = {'base', 'model', 'control', 'controllers', 'navigation', 'bag'}
 # Heavy libraries have one home each.
 HOMES = {
     'rclpy': ROS,
@@ -91,6 +95,8 @@ HOMES = {
     'yourdfpy': {'model'},
     'simplejpeg': {'sim', 'viewer'},
     'colcon_core': {'workspace'},
+    'mcap': {'bag'},
+    'zstandard': {'bag'},
 }
 IMPURE = {
     'asyncio', 'multiprocessing', 'random', 'selectors', 'socket', 'subprocess', 'threading',

@@ -1,0 +1,21 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Bags: recordings of topics as rosbag2 writes them, in MCAP files. No ROS here: bytes and times.
+
+Messages are read and written as they are on the wire, never decoded. Times are integer
+nanoseconds.
+
+=================== ===============================================================================
+``storage.py``      a topic and a message of a bag
+``qos_text.py``     QoS profiles as YAML, as it is in bags and in files of overrides
+``metadata.py``     ``metadata.yaml``
+``schemas.py``      the text of a message type with all that it contains, for those who read it
+``mcap_writer.py``  ``BagWriter``: a folder of MCAP files
+``output_file.py``  the file below it: what is written is there, also when the program is killed
+``reader.py``       ``BagReader``: messages in the order of their times, from whatever is there
+``mcap_file.py``    an MCAP file, also one that was cut off
+``sqlite_file.py``  a file of the older storage of rosbag2, to read
+``compression.py``  files and messages that rosbag2 has compressed
+=================== ===============================================================================
+"""

@@ -1,0 +1,294 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``BagWriter``: a folder of MCAP files, as rosbag2 writes it."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from mcap.writer import CompressionType, Writer
+
+from amr_description.bag import compression, metadata, qos_text, schemas
+from amr_description.bag.metadata import BagMetadata, FileInformation, TopicInformation
+from amr_description.bag.output_file import OutputFile
+from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.errors import BagError
+
+MINIMUM_SPLIT_SIZE = 1024
+"""Bytes: rosbag2 splits at no smaller ones."""
+_CHUNK_SIZE = 768 * 1024
+_ZSTD = {'compression': CompressionType.ZSTD}
+PRESETS: dict[str, dict[str, Any]] = {
+    'none': {},
+    'fastwrite': {'use_chunking': False},
+    'zstd_fast': _ZSTD,
+    'zstd_small': {**_ZSTD, 'chunk_size': 4 * 1024 * 1024, 'enable_crcs': True},
+}
+"""What each ``--storage-preset-profile`` asks of the library of MCAP."""
+
+
+@dataclass(frozen=True)
+class WriterOptions:
+    """How a bag is written."""
+
+    preset: str = 'none'
+    max_bag_size: int = 0
+    """Bytes of a file from which on the next one begins; 0: it never does."""
+    max_bag_duration: int = 0
+    """Nanoseconds, likewise."""
+    compress_files: bool = False
+    """Each file with Zstandard when it is complete."""
+    custom_data: Mapping[str, str] = field(default_factory=dict)
+    on_split: Callable[[Path, Path], None] | None = None
+    """Called with the file that was closed and the one that was opened."""
+
+
+class BagWriter:
+    """
+    Writes a bag: topics are declared, messages written, and at the end it is closed.
+
+    What is killed before leaves all but what was written since the last chunk was full, or since
+    :meth:`flush`: the reader finds it, though there is no ``metadata.yaml``.
+    """
+
+    def __init__(self, folder: Path, options: WriterOptions | None = None) -> None:
+        """Make the folder and the first file. Raises BagError, also if the folder is there."""
+        self.options = options or WriterOptions()
+        if 0 < self.options.max_bag_size < MINIMUM_SPLIT_SIZE:
+            raise BagError(
+                'Invalid bag splitting size given. Please provide a value greater than '
+                f'{MINIMUM_SPLIT_SIZE}. Specified value of {self.options.max_bag_size}'
+            )
+        self.folder = folder
+        self.metadata = BagMetadata(custom_data=dict(self.options.custom_data))
+        self._topics: dict[str, TopicMetadata] = {}
+        self._counts: dict[str, int] = {}
+        self._texts: dict[str, str] = {}
+        self._file: _McapFile | None = None
+        try:
+            folder.mkdir(parents=True)
+            self._file = self._open()
+        except OSError as error:
+            raise BagError(f'cannot create the bag {folder}: {error}') from error
+
+    def __enter__(self) -> 'BagWriter':
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
+
+    @property
+    def path(self) -> Path:
+        """The file that is written to now, or was last."""
+        return self.folder / Path(self.metadata.relative_file_paths[-1])
+
+    @property
+    def topics(self) -> Mapping[str, TopicMetadata]:
+        """Those that were declared, by name."""
+        return self._topics
+
+    @property
+    def message_count(self) -> int:
+        """Of all files."""
+        return self.metadata.message_count
+
+    @property
+    def file_size(self) -> int:
+        """Bytes of the file that is written to, with those that wait for their chunk."""
+        return self._file.size if self._file else 0
+
+    def add_topic(self, topic: TopicMetadata, schema: str | None = None) -> None:
+        """
+        Declare a topic, or change its QoS in the files that follow.
+
+        Args:
+            topic: of which messages will come.
+            schema: its text; None: that of the installed type.
+        """
+        if topic.type not in self._texts:
+            text = schemas.schema_text(topic.type) if schema is None else schema
+            self._texts[topic.type] = text
+        is_new = topic.name not in self._topics
+        self._topics[topic.name] = topic
+        self._counts.setdefault(topic.name, 0)
+        if is_new and self._file:
+            self._file.add_topic(topic, self._texts[topic.type])
+
+    def write(self, message: BagMessage) -> None:
+        """Write a message of a topic that was declared. Raises BagError: the disk is full, say."""
+        file = self._file
+        if file is None:
+            raise BagError(f'the bag {self.folder} is closed')
+        try:
+            if file.information.message_count and self._is_full(file, message.log_time):
+                self.split()
+                file = self._file or file
+            file.write(message)
+        except OSError as error:
+            raise BagError(f'cannot write {self.path}: {error}') from error
+        self._counts[message.topic] += 1
+        self.metadata.message_count += 1
+
+    def flush(self) -> None:
+        """Have all that was written in the file: nothing of it is lost from now on."""
+        try:
+            if self._file:
+                self._file.flush()
+        except OSError as error:
+            raise BagError(f'cannot write {self.path}: {error}') from error
+
+    def split(self) -> None:
+        """Go on in a new file. Raises BagError."""
+        closed = self._close_file()
+        try:
+            self._file = self._open()
+        except OSError as error:
+            raise BagError(f'cannot create a file of the bag {self.folder}: {error}') from error
+        if self.options.on_split:
+            self.options.on_split(closed, self.path)
+
+    def close(self) -> BagMetadata:
+        """
+        Complete the file and ``metadata.yaml``; again: nothing.
+
+        Raises BagError: what was written up to the last chunk is there nevertheless.
+        """
+        if self._file:
+            try:
+                self._close_file()
+            finally:
+                metadata.write(self.folder, self._complete_metadata())
+        return self.metadata
+
+    def _is_full(self, file: '_McapFile', log_time: int) -> bool:
+        options = self.options
+        return (
+            0 < options.max_bag_size <= file.size
+            or 0 < options.max_bag_duration < log_time - file.information.starting_time
+        )
+
+    def _open(self) -> '_McapFile':
+        name = f'{self.folder.name}_{len(self.metadata.files)}.mcap'
+        file = _McapFile(self.folder / name, PRESETS[self.options.preset])
+        self.metadata.relative_file_paths.append(name)
+        self.metadata.files.append(file.information)
+        for topic in self._topics.values():
+            file.add_topic(topic, self._texts[topic.type])
+        return file
+
+    def _close_file(self) -> Path:
+        file, path = self._file, self.path
+        self._file = None
+        if file is None:
+            return path
+        try:
+            file.close(self._complete_metadata())
+        except OSError as error:
+            raise BagError(f'cannot write {path}: {error}') from error
+        if self.options.compress_files:
+            path = compression.compress_file(path)
+            file.information.path = path.name
+            self.metadata.relative_file_paths[-1] = path.name
+        return path
+
+    def _complete_metadata(self) -> BagMetadata:
+        whole = self.metadata
+        used = [file for file in whole.files if file.message_count]
+        whole.starting_time = min((file.starting_time for file in used), default=0)
+        end = max((file.starting_time + file.duration for file in used), default=0)
+        whole.duration = end - whole.starting_time
+        whole.topics_with_message_count = [
+            TopicInformation(topic, self._counts[name]) for name, topic in self._topics.items()
+        ]
+        if self.options.compress_files:
+            whole.compression_format, whole.compression_mode = 'zstd', 'FILE'
+        return whole
+
+
+class _McapFile:
+    """One file of a bag. Methods raise OSError."""
+
+    def __init__(self, path: Path, preset: Mapping[str, Any]) -> None:
+        self.information = FileInformation(path.name)
+        self._output = OutputFile(path)
+        settings = {
+            'chunk_size': _CHUNK_SIZE,
+            'compression': CompressionType.NONE,
+            'enable_crcs': False,
+            **preset,
+        }
+        self._writer = Writer(self._output, **settings)  # type: ignore[arg-type]
+        self._writer.start('ros2', f'amr_description, mcap {version("mcap")}')
+        self._waiting = 0  # bytes of messages that may still wait for their chunk to be full
+        self._chunk_size = settings['chunk_size']
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        self._counts: dict[str, int] = {}
+
+    @property
+    def size(self) -> int:
+        """Bytes, with those that wait."""
+        return self._output.tell() + self._waiting
+
+    def add_topic(self, topic: TopicMetadata, text: str) -> None:
+        if topic.type not in self._schemas:
+            encoding = schemas.ENCODING if text else ''
+            self._schemas[topic.type] = self._writer.register_schema(
+                topic.type, encoding, text.encode()
+            )
+        self._channels[topic.name] = self._writer.register_channel(
+            topic.name,
+            topic.serialization_format,
+            self._schemas[topic.type],
+            {
+                'offered_qos_profiles': qos_text.to_text(topic.offered_qos_profiles),
+                'topic_type_hash': topic.type_description_hash,
+            },
+        )
+
+    def write(self, message: BagMessage) -> None:
+        before = self._output.tell()
+        self._writer.add_message(
+            self._channels[message.topic], message.log_time, message.data, message.publish_time
+        )
+        self._waiting = 0 if self._output.tell() > before else self._waiting + len(message.data)
+        self._counts[message.topic] = self._counts.get(message.topic, 0) + 1
+        file = self.information
+        if not file.message_count:
+            file.starting_time = message.log_time
+        elif message.log_time < file.starting_time:
+            file.duration += file.starting_time - message.log_time
+            file.starting_time = message.log_time
+        file.duration = max(file.duration, message.log_time - file.starting_time)
+        file.message_count += 1
+
+    def flush(self) -> None:
+        self._writer.flush()
+        self._waiting = 0
+
+    def close(self, whole: BagMetadata) -> None:
+        """Complete the file, which also has the metadata of itself alone: it plays alone."""
+        file = self.information
+        alone = replace(
+            whole,
+            starting_time=file.starting_time,
+            duration=file.duration,
+            message_count=file.message_count,
+            topics_with_message_count=[
+                replace(topic, message_count=self._counts.get(topic.topic_metadata.name, 0))
+                for topic in whole.topics_with_message_count
+            ],
+            relative_file_paths=[file.path],
+            files=[file],
+            compression_format='',
+            compression_mode='',
+        )
+        try:
+            self.flush()
+            text = metadata.to_text(alone, with_root=False)
+            self._writer.add_metadata('rosbag2', {'serialized_metadata': text})
+            self._writer.finish()
+        finally:
+            self._output.close()

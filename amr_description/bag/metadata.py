@@ -1,0 +1,203 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``metadata.yaml`` of a bag: version 9 is written, all up to it are read."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from amr_description.bag import qos_text
+from amr_description.bag.storage import TopicMetadata
+from amr_description.errors import BagError
+from amr_description.text import shorten
+
+FILE_NAME = 'metadata.yaml'
+VERSION = 9
+ROS_DISTRO = 'jazzy'
+_ROOT = 'rosbag2_bagfile_information'
+
+
+@dataclass
+class FileInformation:
+    """A file of a bag: its path in the folder, and its times in ns."""
+
+    path: str
+    starting_time: int = 0
+    duration: int = 0
+    message_count: int = 0
+
+
+@dataclass
+class TopicInformation:
+    """A topic, and how many messages of it there are."""
+
+    topic_metadata: TopicMetadata
+    message_count: int = 0
+
+
+@dataclass
+class BagMetadata:
+    """What ``metadata.yaml`` says, by its names; times are ns."""
+
+    storage_identifier: str = 'mcap'
+    version: int = VERSION
+    starting_time: int = 0
+    duration: int = 0
+    message_count: int = 0
+    topics_with_message_count: list[TopicInformation] = field(default_factory=list)
+    compression_format: str = ''
+    compression_mode: str = ''
+    relative_file_paths: list[str] = field(default_factory=list)
+    files: list[FileInformation] = field(default_factory=list)
+    custom_data: dict[str, str] = field(default_factory=dict)
+    ros_distro: str = ROS_DISTRO
+
+    @property
+    def end_time(self) -> int:
+        """When the last message was received."""
+        return self.starting_time + self.duration
+
+
+def to_node(metadata: BagMetadata) -> dict[str, Any]:
+    """Return what YAML has below ``rosbag2_bagfile_information``, in version 9."""
+    return {
+        'version': VERSION,
+        'storage_identifier': metadata.storage_identifier,
+        'duration': {'nanoseconds': metadata.duration},
+        'starting_time': {'nanoseconds_since_epoch': metadata.starting_time},
+        'message_count': metadata.message_count,
+        'topics_with_message_count': [
+            {
+                'topic_metadata': _topic_node(topic.topic_metadata),
+                'message_count': topic.message_count,
+            }
+            for topic in metadata.topics_with_message_count
+        ],
+        'compression_format': metadata.compression_format,
+        'compression_mode': metadata.compression_mode,
+        'relative_file_paths': list(metadata.relative_file_paths),
+        'files': [
+            {
+                'path': file.path,
+                'starting_time': {'nanoseconds_since_epoch': file.starting_time},
+                'duration': {'nanoseconds': file.duration},
+                'message_count': file.message_count,
+            }
+            for file in metadata.files
+        ],
+        'custom_data': dict(metadata.custom_data) or None,
+        'ros_distro': metadata.ros_distro,
+    }
+
+
+def _topic_node(topic: TopicMetadata) -> dict[str, Any]:
+    return {
+        'name': topic.name,
+        'type': topic.type,
+        'serialization_format': topic.serialization_format,
+        'offered_qos_profiles': [
+            qos_text.to_node(profile) for profile in topic.offered_qos_profiles
+        ],
+        'type_description_hash': topic.type_description_hash,
+    }
+
+
+def to_text(metadata: BagMetadata, *, with_root: bool = True) -> str:
+    """Return the YAML; without its root it is what a record in an MCAP file has."""
+    node = to_node(metadata)
+    return yaml.safe_dump({_ROOT: node} if with_root else node, sort_keys=False)
+
+
+def from_text(text: str, what: str = FILE_NAME) -> BagMetadata:
+    """
+    Return what a YAML text says, with or without its root.
+
+    Raises BagError, which begins with ``what``.
+    """
+    try:
+        node = yaml.load(text, Loader=getattr(yaml, 'CSafeLoader', yaml.SafeLoader))
+    except (yaml.YAMLError, ValueError) as error:
+        raise BagError(f'{what}: not YAML: {shorten(str(error))}') from error
+    if isinstance(node, Mapping) and _ROOT in node:
+        node = node[_ROOT]
+    if not isinstance(node, Mapping) or 'version' not in node:
+        raise BagError(f"{what}: there is no '{_ROOT}' with a version in it")
+    if type(node['version']) is not int or not 1 <= node['version'] <= VERSION:
+        raise BagError(
+            f'{what}: version {shorten(str(node["version"]))} is not known; this reads those '
+            f'up to {VERSION}'
+        )
+    try:
+        return _metadata(node, what)
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        reason = f'{type(error).__name__}: {shorten(str(error))}'
+        raise BagError(f'{what}: not as rosbag2 writes it ({reason})') from error
+
+
+def read(folder: Path) -> BagMetadata:
+    """Return the metadata of a bag in a folder. Raises BagError."""
+    path = folder / FILE_NAME
+    try:
+        return from_text(path.read_text(), str(path))
+    except (OSError, UnicodeDecodeError) as error:
+        raise BagError(f'cannot read {path}: {error}') from error
+
+
+def write(folder: Path, metadata: BagMetadata) -> None:
+    """Write the file, at once: an interruption leaves the former one, or none."""
+    path = folder / FILE_NAME
+    partial = path.with_name(f'.{FILE_NAME}.part')
+    try:
+        partial.write_text(to_text(metadata))
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise BagError(f'cannot write {path}: {error}') from error
+
+
+def _metadata(node: Mapping[str, Any], what: str) -> BagMetadata:
+    return BagMetadata(
+        storage_identifier=str(node['storage_identifier']),
+        version=node['version'],
+        starting_time=int(node['starting_time']['nanoseconds_since_epoch']),
+        duration=int(node['duration']['nanoseconds']),
+        message_count=int(node['message_count']),
+        topics_with_message_count=[
+            TopicInformation(_topic(each['topic_metadata'], what), int(each['message_count']))
+            for each in node['topics_with_message_count'] or ()
+        ],
+        compression_format=str(node.get('compression_format') or ''),
+        compression_mode=str(node.get('compression_mode') or ''),
+        relative_file_paths=[str(path) for path in node['relative_file_paths'] or ()],
+        files=[
+            FileInformation(
+                str(each['path']),
+                int(each['starting_time']['nanoseconds_since_epoch']),
+                int(each['duration']['nanoseconds']),
+                int(each['message_count']),
+            )
+            for each in node.get('files') or ()
+        ],
+        custom_data={str(k): str(v) for k, v in (node.get('custom_data') or {}).items()},
+        ros_distro=str(node.get('ros_distro') or ''),
+    )
+
+
+def _topic(node: Mapping[str, Any], what: str) -> TopicMetadata:
+    qos = node.get('offered_qos_profiles') or ()
+    where = f'{what}: offered_qos_profiles of {node["name"]}'
+    profiles = (
+        qos_text.from_text(qos, where)
+        if isinstance(qos, str)
+        else qos_text.from_nodes(list(qos), where)
+    )
+    return TopicMetadata(
+        str(node['name']),
+        str(node['type']),
+        str(node.get('serialization_format') or 'cdr'),
+        profiles,
+        str(node.get('type_description_hash') or ''),
+    )

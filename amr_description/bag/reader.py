@@ -1,0 +1,234 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``BagReader``: the messages of a bag in the order of their times, from whatever is there."""
+
+from collections.abc import Collection, Iterable, Iterator
+import heapq
+from pathlib import Path
+
+from amr_description.bag import compression, mcap_file, metadata, sqlite_file
+from amr_description.bag.mcap_file import McapFile
+from amr_description.bag.metadata import BagMetadata, TopicInformation
+from amr_description.bag.sqlite_file import SqliteFile
+from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.errors import BagError
+
+STORAGES = {'mcap': ('.mcap',), 'sqlite3': ('.db3',)}
+"""The ends of the names of files, by the name of their storage."""
+_LATEST = 2**63 - 1  # ns; larger ones SQLite does not know
+
+
+class BagReader:
+    """
+    Reads a folder with or without ``metadata.yaml``, or one file; ``close`` it.
+
+    Without ``metadata.yaml``, as after an interruption, the files say what is in them.
+    """
+
+    def __init__(self, path: Path, storage: str | None = None) -> None:
+        """
+        Open all files of the bag.
+
+        Args:
+            path: a folder, or a file.
+            storage: ``mcap`` or ``sqlite3``; None: what the bag says.
+
+        Raises:
+            BagError: there is no bag, or it cannot be read.
+        """
+        self.path = path
+        self._files: list[McapFile] | list[SqliteFile] = []
+        given: BagMetadata | None = None
+        if not path.exists():
+            raise BagError(f'No such bag: {path} does not exist')
+        if path.is_dir():
+            if (path / metadata.FILE_NAME).exists():
+                given = metadata.read(path)
+            paths = _paths(path, given, storage)
+        else:
+            paths = [path]
+        self.is_rebuilt = given is None
+        """Whether there was no ``metadata.yaml``."""
+        self.storage = storage or (given.storage_identifier if given else storage_of(paths[0]))
+        if self.storage not in STORAGES:
+            raise BagError(f"{path}: storage '{self.storage}' is not known; mcap and sqlite3 are")
+        self._open(paths)
+        try:
+            if given is None:
+                given = self._own_metadata() if path.is_file() else None
+            self.metadata = given or rebuilt(self._files, self.storage)
+        except BaseException:
+            self.close()
+            raise
+        self._is_packed = self.metadata.compression_mode.upper() == 'MESSAGE'
+
+    def __enter__(self) -> 'BagReader':
+        return self
+
+    def __exit__(self, *_exception: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close all files."""
+        for file in self._files:
+            file.close()
+
+    @property
+    def file_paths(self) -> list[Path]:
+        """The files, in their order."""
+        return [file.path for file in self._files]
+
+    @property
+    def topics(self) -> dict[str, TopicMetadata]:
+        """The topics by their names."""
+        information = self.metadata.topics_with_message_count
+        return {each.topic_metadata.name: each.topic_metadata for each in information}
+
+    @property
+    def schemas(self) -> dict[str, str]:
+        """The text of each type that the bag has, by its name."""
+        found: dict[str, str] = {}
+        for file in self._files:
+            found.update(file.schemas)
+        return found
+
+    @property
+    def size(self) -> int:
+        """Bytes of all files."""
+        return sum(path.stat().st_size for path in self.file_paths)
+
+    def messages(
+        self,
+        topics: Collection[str] | None = None,
+        start: int | None = None,
+        end: int | None = None,
+    ) -> Iterator[BagMessage]:
+        """
+        Yield the messages in the order of their log times, over all files.
+
+        Args:
+            topics: which; None: all.
+            start: the first log time, ns; None: from the beginning.
+            end: the last log time, ns; None: to the end.
+
+        Raises:
+            BagError: a part of the bag cannot be read.
+        """
+        first, last = start or 0, _LATEST if end is None else end
+        found: Iterable[BagMessage]
+        if self.storage == 'mcap':
+            files = [file for file in self._files if isinstance(file, McapFile)]
+            found = mcap_file.in_order(files, topics, first, last)
+        else:
+            bases = [file for file in self._files if isinstance(file, SqliteFile)]
+            found = heapq.merge(
+                *(base.messages(topics, first, last) for base in bases),
+                key=lambda message: message.log_time,
+            )
+        for message in found:
+            yield (
+                message._replace(data=compression.decompress(message.data))
+                if self._is_packed
+                else message
+            )
+
+    def _open(self, paths: list[Path]) -> None:
+        try:
+            if self.storage == 'mcap':
+                self._files = mcap = []
+                for path in paths:
+                    mcap.append(McapFile(path))
+            else:
+                self._files = sqlite = []
+                for path in paths:
+                    sqlite.append(SqliteFile(path))
+        except BaseException:
+            self.close()
+            raise
+
+    def _own_metadata(self) -> BagMetadata | None:
+        file = self._files[0]
+        own = file.own_metadata if isinstance(file, McapFile) and file.is_complete else None
+        if own:
+            # It may have been renamed since, or split from the bag that it was written for.
+            own.relative_file_paths = [file.path.name]
+            information = file.information
+            own.files = [information]
+            own.message_count = information.message_count
+            own.topics_with_message_count = file.topics
+            own.starting_time, own.duration = information.starting_time, information.duration
+        return own
+
+
+def rebuilt(files: Iterable[McapFile] | Iterable[SqliteFile], storage: str) -> BagMetadata:
+    """Return what ``metadata.yaml`` would say of files."""
+    found = BagMetadata(storage)
+    topics: dict[str, TopicInformation] = {}
+    for file in files:
+        found.relative_file_paths.append(file.path.name)
+        found.files.append(file.information)
+        if file.path.suffix == compression.SUFFIX:
+            found.compression_format, found.compression_mode = 'zstd', 'FILE'
+        for each in file.topics:
+            name = each.topic_metadata.name
+            if name in topics:
+                topics[name].message_count += each.message_count
+            else:
+                topics[name] = each
+        own = file.own_metadata if isinstance(file, McapFile) else None
+        if own:
+            found.custom_data.update(own.custom_data)
+            found.ros_distro = own.ros_distro
+    used = [file for file in found.files if file.message_count]
+    found.starting_time = min((each.starting_time for each in used), default=0)
+    end = max((each.starting_time + each.duration for each in used), default=0)
+    found.duration = end - found.starting_time
+    found.message_count = sum(each.message_count for each in used)
+    found.topics_with_message_count = list(topics.values())
+    return found
+
+
+def storage_of(path: Path) -> str:
+    """Return the name of the storage that a file is of. Raises BagError."""
+    with compression.open_file(path) as stream:
+        head = stream.read(len(sqlite_file.MAGIC))
+    if head.startswith(mcap_file.MAGIC):
+        return 'mcap'
+    if head == sqlite_file.MAGIC:
+        return 'sqlite3'
+    raise BagError(f'{path} is not a bag: it begins neither as an MCAP file nor as one of SQLite')
+
+
+def files_in(folder: Path, storage: str | None = None) -> list[Path]:
+    """Return the files of a bag in a folder, by the numbers in their names. Raises BagError."""
+    ends = [end for name in ([storage] if storage else STORAGES) for end in STORAGES[name]]
+    names = tuple(ends) + tuple(end + compression.SUFFIX for end in ends)
+    found = [path for path in folder.iterdir() if path.name.endswith(names)]
+    if not found:
+        raise BagError(
+            f'{folder} is not a bag: there is neither {metadata.FILE_NAME} nor a file *.mcap or '
+            '*.db3 in it'
+        )
+    return sorted(found, key=_number_and_name)
+
+
+def _number_and_name(path: Path) -> tuple[int, str]:
+    number = path.name.partition('.')[0].rpartition('_')[2]
+    return (int(number) if number.isdecimal() else -1, path.name)
+
+
+def _paths(folder: Path, given: BagMetadata | None, storage: str | None) -> list[Path]:
+    if given is None:
+        return files_in(folder, storage)
+    # Before version 4 the paths had the folder in them.
+    paths = [folder / path for path in given.relative_file_paths]
+    paths = [path if path.exists() else folder / path.name for path in paths]
+    missing = [path for path in paths if not path.exists()]
+    if missing:
+        raise BagError(
+            f'{folder / metadata.FILE_NAME} names {missing[0].name}, which is not there; '
+            f'`ros2 bag reindex {folder}` makes it anew from the files that are'
+        )
+    if not paths:
+        raise BagError(f'{folder / metadata.FILE_NAME} names no file')
+    return paths
