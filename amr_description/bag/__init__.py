@@ -6,16 +6,21 @@ Bags: recordings of topics as rosbag2 writes them, in MCAP files. No ROS here: b
 Messages are read and written as they are on the wire, never decoded. Times are integer
 nanoseconds.
 
-=================== ===============================================================================
-``storage.py``      a topic and a message of a bag
-``qos_text.py``     QoS profiles as YAML, as it is in bags and in files of overrides
-``metadata.py``     ``metadata.yaml``
-``schemas.py``      the text of a message type with all that it contains, for those who read it
-``mcap_writer.py``  ``BagWriter``: a folder of MCAP files
-``output_file.py``  the file below it: what is written is there, also when the program is killed
-``reader.py``       ``BagReader``: messages in the order of their times, from whatever is there
-``mcap_file.py``    an MCAP file, also one that was cut off
-``sqlite_file.py``  a file of the older storage of rosbag2, to read
-``compression.py``  files and messages that rosbag2 has compressed
-=================== ===============================================================================
+====================== ============================================================================
+``storage.py``         a topic and a message of a bag
+``qos_text.py``        QoS profiles as YAML, as it is in bags and in files of overrides
+``metadata.py``        ``metadata.yaml``
+``schemas.py``         the text of a message type with all that it contains, for those who read it
+``mcap_writer.py``     ``BagWriter``: a folder of MCAP files
+``output_file.py``     the file below it: what is written is there, also when the program is killed
+``reader.py``          ``BagReader``: messages in the order of their times, from whatever is there
+``mcap_file.py``       an MCAP file, also one that was cut off
+``sqlite_file.py``     a file of the older storage of rosbag2, to read
+``compression.py``     files and messages that rosbag2 has compressed
+``topic_selection.py`` which topics are meant by the flags of a command line
+``recording.py``       several bags as one recording, and what was latched at a time of it
+``playback.py``        when each message is due; ``Playback``
+``playback_clock.py``  the time of a recording while it is played
+``ros/``               what records and what plays, as ROS nodes
+====================== ============================================================================
 """

@@ -3,8 +3,6 @@
 """Commands and verbs of ROS that are not here, and what would do instead."""
 
 INSTEAD_OF_COMMANDS = {
-    'ros2 bag': 'record on a machine with ROS 2 Jazzy in the same domain; or write the values of '
-    'one topic with `ros2 topic echo --csv TOPIC > FILE`',
     'ros2 component': 'components are C++ nodes, of which there are none here; start nodes with '
     '`ros2 run` and `ros2 launch`',
     'ros2 doctor': 'look with `ros2 topic info --verbose TOPIC`, `ros2 node info NODE` and `ros2 '

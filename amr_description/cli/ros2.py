@@ -11,6 +11,7 @@ from amr_description.cli.lazy_parser import LazyParser, run
 
 COMMANDS = {
     'action': 'amr_description.cli.action',
+    'bag': 'amr_description.cli.bag',
     'control': 'amr_description.cli.control',
     'daemon': 'amr_description.cli.daemon',
     'interface': 'amr_description.cli.interface',

@@ -1,0 +1,151 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Several bags as one recording, and what was latched at a time of it."""
+
+from bisect import bisect_right
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+import heapq
+from pathlib import Path
+
+from amr_description.bag.qos_text import QosProfile
+from amr_description.bag.reader import BagReader
+from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.errors import BagError
+
+_UNBOUNDED = 1000  # messages of a publisher that keeps all
+
+
+class BagRecording:
+    """The chosen topics of one bag or several, in the order of their times."""
+
+    def __init__(
+        self, readers: Sequence[BagReader], holds: Callable[[TopicMetadata], bool] = lambda _: True
+    ) -> None:
+        """
+        Take bags that are open.
+
+        Args:
+            readers: of them; whoever opened them closes them.
+            holds: returns whether a topic is chosen.
+
+        Raises:
+            BagError: a topic has two types.
+        """
+        self._readers = readers
+        self.topics: dict[str, TopicMetadata] = {}
+        for reader in readers:
+            for topic in reader.topics.values():
+                if holds(topic):
+                    self._add(topic, reader)
+
+    def _add(self, topic: TopicMetadata, reader: BagReader) -> None:
+        known = self.topics.setdefault(topic.name, topic)
+        if known.type != topic.type:
+            raise BagError(
+                f'{topic.name} has the type {topic.type} in {reader.path}, but {known.type} in a '
+                'bag before'
+            )
+        if known is not topic:
+            profiles = dict.fromkeys(known.offered_qos_profiles + topic.offered_qos_profiles)
+            self.topics[topic.name] = replace(known, offered_qos_profiles=tuple(profiles))
+
+    @property
+    def start(self) -> int:
+        """The time of the first message, ns."""
+        used = [each.metadata for each in self._readers if each.metadata.message_count]
+        return min((each.starting_time for each in used), default=0)
+
+    @property
+    def end(self) -> int:
+        """The time of the last message, ns."""
+        used = [each.metadata for each in self._readers if each.metadata.message_count]
+        return max((each.end_time for each in used), default=0)
+
+    @property
+    def schemas(self) -> dict[str, str]:
+        """The text of each type that the bags have, by its name."""
+        return {name: text for each in self._readers for name, text in each.schemas.items()}
+
+    def messages(self, start: int, end: int | None = None) -> Iterator[BagMessage]:
+        """Yield the messages from a time on, up to another, both ns. Raises BagError."""
+        return self._of(self.topics, start, end)
+
+    def latched_before(self, time: int) -> list[BagMessage]:
+        """Return the messages that a subscription which begins at that time would still get."""
+        depths = {
+            name: depth
+            for name, topic in self.topics.items()
+            if (depth := latched_depth(topic.offered_qos_profiles))
+        }
+        if time <= self.start or not depths:
+            return []
+        kept: dict[str, deque[BagMessage]] = {n: deque(maxlen=d) for n, d in depths.items()}
+        for message in self._of(depths, 0, time - 1):
+            kept[message.topic].append(message)
+        found = [message for each in kept.values() for message in each]
+        return sorted(found, key=lambda message: message.log_time)
+
+    def splits(self) -> list[list[tuple[int, Path]]]:
+        """Return the begin of each file, ns, and its path, for each bag."""
+        return [
+            [
+                (file.starting_time, path)
+                for file, path in zip(each.metadata.files, each.file_paths, strict=False)
+            ]
+            for each in self._readers
+        ]
+
+    def _of(self, topics: Iterable[str], start: int, end: int | None) -> Iterator[BagMessage]:
+        names = set(topics)
+        found = [each.messages(names, start, end) for each in self._readers]
+        if len(found) == 1:
+            return found[0]
+        return heapq.merge(*found, key=lambda message: message.log_time)
+
+
+class SplitWatch:
+    """Notices by the times of messages that the next file of a bag has begun."""
+
+    def __init__(self, splits: Iterable[Sequence[tuple[int, Path]]]) -> None:
+        """``splits``: as of :meth:`BagRecording.splits`."""
+        self._bags = [sorted(each) for each in splits if len(each) > 1]
+        self._current = [0] * len(self._bags)
+
+    def pass_time(self, time: int) -> list[tuple[Path, Path]]:
+        """Return the files that ended before a message of this time, ns, and those after them."""
+        passed = []
+        for index, files in enumerate(self._bags):
+            place = max(0, bisect_right(files, time, key=lambda file: file[0]) - 1)
+            before = self._current[index]
+            passed += [(files[n][1], files[n + 1][1]) for n in range(before, place)]
+            self._current[index] = place
+        return passed
+
+
+def latched_depth(profiles: Iterable[QosProfile]) -> int:
+    """Return how many messages late subscriptions get from publishers of these profiles."""
+    return sum(
+        _UNBOUNDED if each.history == 'keep_all' else max(each.depth, 1)
+        for each in profiles
+        if each.durability == 'transient_local'
+    )
+
+
+def is_same_offer(profiles: Sequence[QosProfile]) -> bool:
+    """Return whether publishers offer the same, but for how many messages they keep."""
+    return len({replace(each, history='keep_last', depth=0) for each in profiles}) <= 1
+
+
+def offer_of(profiles: Sequence[QosProfile]) -> QosProfile:
+    """
+    Return the profile to play a topic with whose publishers had these.
+
+    That of the original: theirs if they agree, with a depth of 10; else the default. What was
+    latched by more than ten publishers, or by one that kept more, is all kept.
+    """
+    if not profiles or not is_same_offer(profiles):
+        return QosProfile()
+    depth = max(QosProfile().depth, latched_depth(profiles))
+    return replace(profiles[0], history='keep_last', depth=depth)

@@ -1,0 +1,66 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Recorded requests of services, sent again."""
+
+from typing import Any
+
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.serialization import deserialize_message
+from service_msgs.msg import ServiceEventInfo
+
+from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.bag.topic_selection import event_topic
+from amr_description.ros.message_types import service_type
+
+SOURCES = {
+    'service_introspection': ServiceEventInfo.REQUEST_RECEIVED,
+    'client_introspection': ServiceEventInfo.REQUEST_SENT,
+}
+"""Of which events the requests are taken."""
+
+
+class ServiceRequests:
+    """Sends what was asked for by the events of services that a recording has."""
+
+    def __init__(self, node: Node, source: str) -> None:
+        """``source``: of :data:`SOURCES`; empty: nothing is sent."""
+        self._node = node
+        self._log = node.get_logger()
+        self._event = SOURCES.get(source)
+        self._clients: dict[str, tuple[Client, Any]] = {}
+        self._told: set[str] = set()
+
+    def add(self, topic: TopicMetadata) -> None:
+        """Make the client for the topic of a service's events. Raises AmrError: its type."""
+        kind = service_type(topic.type.removesuffix('_Event'))
+        name = topic.name.removesuffix(event_topic(''))
+        self._clients[topic.name] = self._node.create_client(kind, name), kind
+
+    def send(self, message: BagMessage) -> bool:
+        """Send the request of an event; return False if it has none that is to be sent."""
+        if message.topic not in self._clients:
+            return False
+        client, kind = self._clients[message.topic]
+        event = deserialize_message(message.data, kind.Event)
+        if event.info.event_type != self._event:
+            return False
+        if not event.request:
+            self._warn_once(
+                client.srv_name,
+                f"Can't send service request. The configuration of introspection for "
+                f"'{client.srv_name}' was metadata only!",
+            )
+            return False
+        if not client.service_is_ready():
+            self._log.error(
+                f"Service request hasn't been sent. The '{client.srv_name}' service isn't ready !"
+            )
+            return False
+        client.call_async(event.request[0])
+        return True
+
+    def _warn_once(self, name: str, text: str) -> None:
+        if name not in self._told:
+            self._told.add(name)
+            self._log.warning(text)

@@ -1,0 +1,16 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Classes of the topics of a bag, also of those that have the events of services."""
+
+from typing import Any
+
+from amr_description.ros.message_types import message_type, service_type
+
+_EVENT = '_Event'
+
+
+def topic_class(name: str) -> Any:
+    """Return the class of a topic's type, as ``package/msg/Name``. Raises AmrError."""
+    if '/srv/' in name and name.endswith(_EVENT):
+        return service_type(name.removesuffix(_EVENT)).Event
+    return message_type(name, 'The type of the topic')

@@ -1,0 +1,8 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Various rosbag related sub-commands."""
+
+VERBS = {
+    'burst': 'amr_description.cli.bag.burst',
+    'play': 'amr_description.cli.bag.play',
+}

@@ -1,0 +1,294 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The player as a node: what arrives, with which QoS, and its services."""
+
+from contextlib import contextmanager
+
+from example_interfaces.srv import AddTwoInts
+import pytest
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.serialization import serialize_message
+from rosbag2_interfaces.msg import ReadSplitEvent
+from rosbag2_interfaces.srv import (
+    Burst,
+    GetRate,
+    IsPaused,
+    Pause,
+    Play,
+    PlayNext,
+    Resume,
+    Seek,
+    SetRate,
+    Stop,
+    TogglePaused,
+)
+from rosgraph_msgs.msg import Clock
+from service_msgs.msg import ServiceEventInfo
+from std_msgs.msg import String
+from support.ros_processes import PATIENCE
+from support.small_bags import BEGIN, LATCHED, MS, topic, write_bag
+
+from amr_description.bag.mcap_writer import BagWriter
+from amr_description.bag.playback import PlaybackOptions
+from amr_description.bag.qos_text import QosProfile
+from amr_description.bag.reader import BagReader
+from amr_description.bag.recording import BagRecording
+from amr_description.bag.ros.player import Player, PlayerOptions
+from amr_description.bag.ros.player_services import offer_services
+from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.ros.messages import nanoseconds
+from amr_description.ros.service_calls import wait_until
+
+KEEP = QoSProfile(depth=100)
+KEEP_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+NUMBERS = [(10 * n, '/chatter', str(n)) for n in range(5)]
+PAUSED = PlaybackOptions(start_paused=True)
+
+
+class Host:
+    """The node of a player, and one that hears what is played."""
+
+    def __init__(self):
+        self.node, self.other = Node('rosbag2_player'), Node('hears')
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.node)
+        self.executor.add_node(self.other)
+        self.heard = []
+
+    def hear(self, name, kind=String, qos=KEEP):
+        self.other.create_subscription(kind, name, lambda m: self.heard.append((name, m)), qos)
+
+    @property
+    def texts(self):
+        return [message.data for _, message in self.heard]
+
+    @contextmanager
+    def player(self, *bags, awaited=('/chatter',), **options):
+        """A player whose publishers of these topics are heard."""
+        readers = [BagReader(bag) for bag in bags]
+        player = Player(self.node, BagRecording(readers), PlayerOptions(**options))
+        offer_services(self.node, player)
+        try:
+            found = [p for p in self.node.publishers if p.topic_name in awaited]
+            assert len(found) == len(awaited)
+            self.until(lambda: all(p.get_subscription_count() for p in found))
+            yield player
+        finally:
+            player.end()
+            for reader in readers:
+                reader.close()
+
+    def until(self, condition):
+        assert wait_until(self.other, lambda: condition() or None, timeout=PATIENCE)
+
+    def call(self, kind, name, **fields):
+        client = self.other.create_client(kind, f'/rosbag2_player/{name}')
+        self.until(client.service_is_ready)
+        future = client.call_async(kind.Request(**fields))
+        self.until(future.done)
+        return future.result()
+
+    def end(self):
+        self.executor.shutdown()
+        self.node.destroy_node()
+        self.other.destroy_node()
+
+
+@pytest.fixture
+def host():
+    rclpy.init(args=[])
+    made = Host()
+    yield made
+    made.end()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def bag(tmp_path):
+    return write_bag(tmp_path / 'bag', [topic('/chatter')], NUMBERS)
+
+
+def test_several_bags_are_played_by_their_times(host, bag, tmp_path):
+    host.hear('/chatter')
+    second = write_bag(tmp_path / 'second', [topic('/chatter')], [(15, '/chatter', 'between')])
+    with host.player(bag, second) as player:
+        player.start()
+        host.until(lambda: player.is_over and len(host.heard) == 6)
+    assert host.texts == ['0', '1', 'between', '2', '3', '4']
+    assert player.error is None
+
+
+def test_services_control_it(host, bag):
+    host.hear('/chatter')
+    with host.player(bag, playback=PAUSED) as player:
+        player.start()
+        assert host.call(IsPaused, 'is_paused').paused
+        assert host.call(PlayNext, 'play_next').success
+        assert host.call(Burst, 'burst', num_messages=2).actually_burst == 2
+        host.until(lambda: host.texts == ['0', '1', '2'])
+        seek = Seek.Request().time
+        seek.sec, seek.nanosec = divmod(BEGIN + 40 * MS, 10**9)
+        assert host.call(Seek, 'seek', time=seek).success
+        assert host.call(Burst, 'burst').actually_burst == 1
+        assert not host.call(PlayNext, 'play_next').success
+        host.until(lambda: host.texts == ['0', '1', '2', '4'])
+        assert host.call(SetRate, 'set_rate', rate=2.5).success
+        assert not host.call(SetRate, 'set_rate', rate=0.0).success
+        assert host.call(GetRate, 'get_rate').rate == 2.5
+        assert not host.call(Play, 'play').success
+        host.call(Stop, 'stop')
+        host.until(lambda: player.is_over)
+
+
+def test_pauses_come_and_go(host, bag):
+    # Nothing ends so slowly.
+    playback = PlaybackOptions(start_paused=True, rate=1e-6)
+    with host.player(bag, awaited=(), playback=playback) as player:
+        player.start()
+        states = [player.is_paused]
+        for kind, name in (
+            (Resume, 'resume'),
+            (TogglePaused, 'toggle_paused'),
+            (TogglePaused, 'toggle_paused'),
+            (Pause, 'pause'),
+        ):
+            host.call(kind, name)
+            states.append(player.is_paused)
+        assert states == [True, False, True, False, True]
+        assert not player.is_over
+        assert player.burst(0) == 4  # the first was due
+        assert player.is_at_end
+
+
+def test_what_was_latched_by_many_is_all_latched(host, tmp_path):
+    texts = [(n, '/tf_static', str(n)) for n in range(12)]
+    profiles = [LATCHED] * 12
+    bag = write_bag(tmp_path / 'bag', [topic('/tf_static', *profiles)], texts)
+    with host.player(bag, awaited=(), playback=PAUSED) as player:
+        player.start()
+        player.burst(0)
+        host.hear('/tf_static', qos=KEEP_LATCHED)  # late
+        host.until(lambda: len(host.heard) == 12)
+
+
+def test_an_offset_keeps_what_was_latched_before(host, tmp_path):
+    topics = [topic('/description', LATCHED), topic('/chatter')]
+    bag = write_bag(tmp_path / 'bag', topics, [(0, '/description', 'robot'), *NUMBERS])
+    host.hear('/description', qos=KEEP_LATCHED)
+    host.hear('/chatter')
+    playback = PlaybackOptions(start_offset=25 * MS)
+    with host.player(bag, awaited=('/chatter', '/description'), playback=playback) as player:
+        player.start()
+        host.until(lambda: len(host.heard) == 3)
+    assert sorted(host.texts) == ['3', '4', 'robot']
+
+
+def test_qos_is_as_recorded_or_as_overridden(host, tmp_path):
+    best = QosProfile(reliability='best_effort', depth=3)
+    topics = [
+        topic('/best', best, best),
+        topic('/mixed', best, QosProfile()),
+        topic('/none'),
+        topic('/chatter', LATCHED),
+    ]
+    bag = write_bag(tmp_path / 'bag', topics, NUMBERS)
+    overrides = {'/none': QosProfile(depth=7, durability='transient_local')}
+    with host.player(bag, awaited=(), overrides=overrides):
+        offered = {p.topic_name: p.qos_profile for p in host.node.publishers}
+    reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+    assert (offered['/best'].reliability, offered['/best'].depth) == (best_effort, 10)
+    assert offered['/mixed'].reliability == reliable
+    assert (offered['/none'].durability.name, offered['/none'].depth) == ('TRANSIENT_LOCAL', 7)
+    assert offered['/chatter'].durability == DurabilityPolicy.TRANSIENT_LOCAL
+
+
+def test_the_clock_has_the_times_of_the_recording(host, bag):
+    host.hear('/clock', Clock)
+    with host.player(bag, awaited=('/clock',), clock_frequency=1000.0) as player:
+        player.start()
+        host.until(lambda: player.is_over and len(host.heard) > 5)
+    times = [nanoseconds(message.clock) for _, message in host.heard]
+    assert times == sorted(times)
+    assert times[0] >= BEGIN
+    assert times[-1] < BEGIN + PATIENCE * 10**9
+
+
+@pytest.mark.parametrize(('triggers', 'ticks'), [((), [0, 10, 20]), (('/other',), [10])])
+def test_messages_have_the_clock_before_them(host, tmp_path, triggers, ticks):
+    texts = [(0, '/chatter', 'a'), (10, '/other', 'b'), (20, '/chatter', 'c')]
+    bag = write_bag(tmp_path / 'bag', [topic('/chatter'), topic('/other')], texts)
+    host.hear('/clock', Clock)
+    with host.player(bag, awaited=('/clock',), clock_topics=triggers) as player:
+        player.start()
+        host.until(lambda: player.is_over and len(host.heard) >= len(ticks))
+    times = [nanoseconds(message.clock) for _, message in host.heard]
+    assert times == [BEGIN + tick * MS for tick in ticks]
+
+
+def test_the_recorded_clock_gives_way_to_ours(host, tmp_path):
+    topics = [topic('/clock', kind='rosgraph_msgs/msg/Clock'), topic('/chatter')]
+    bag = write_bag(tmp_path / 'bag', topics, NUMBERS)
+    with host.player(bag, awaited=(), clock_frequency=1.0):
+        names = [p.topic_name for p in host.node.publishers]
+    assert names.count('/clock') == 1
+
+
+def test_the_next_file_is_told(host, tmp_path):
+    texts = [(n, '/chatter', 'x' * 2000) for n in range(0, 60, 20)]
+    bag = write_bag(tmp_path / 'bag', [topic('/chatter')], texts, max_bag_size=2000)
+    host.hear('/events/read_split', ReadSplitEvent)
+    with host.player(bag, awaited=('/events/read_split',)) as player:
+        player.start()
+        host.until(lambda: player.is_over and len(host.heard) == 2)
+    event = host.heard[0][1]
+    assert (event.closed_file, event.opened_file, event.node_name) == (
+        str(bag / 'bag_0.mcap'),
+        str(bag / 'bag_1.mcap'),
+        '/rosbag2_player',
+    )
+
+
+def test_a_type_that_is_not_installed_is_left_out(host, tmp_path, capfd):
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic(TopicMetadata('/absent', 'absent_msgs/msg/Absent'), schema='int8 a')
+        writer.write(BagMessage('/absent', b'\0\1\0\0\0', BEGIN, BEGIN))
+    with host.player(tmp_path / 'bag', awaited=()) as player:
+        player.start()
+        host.until(lambda: player.is_over)
+    assert player.error is None
+    assert "Ignoring a topic '/absent', reason: " in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('source', 'sums'), [('service_introspection', [3]), ('client_introspection', [7])]
+)
+def test_recorded_requests_are_sent(host, tmp_path, source, sums):
+    """Of the side that is asked for; responses are there, too."""
+    events = [
+        (ServiceEventInfo.REQUEST_SENT, AddTwoInts.Request(a=3, b=4)),
+        (ServiceEventInfo.REQUEST_RECEIVED, AddTwoInts.Request(a=1, b=2)),
+        (ServiceEventInfo.RESPONSE_SENT, None),
+    ]
+    name, kind = '/add/_service_event', 'example_interfaces/srv/AddTwoInts_Event'
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic(TopicMetadata(name, kind), schema='')
+        for number, (event_type, request) in enumerate(events):
+            event = AddTwoInts.Event(request=[request] if request else [])
+            event.info.event_type = event_type
+            writer.write(BagMessage(name, serialize_message(event), BEGIN + number, BEGIN))
+    asked = []
+
+    def add(request, response):
+        asked.append(request.a + request.b)
+        return response
+
+    host.other.create_service(AddTwoInts, '/add', add)
+    with host.player(tmp_path / 'bag', awaited=(), requests_from=source) as player:
+        client = next(c for c in host.node.clients if c.srv_name == '/add')
+        host.until(client.service_is_ready)
+        player.start()
+        host.until(lambda: player.is_over and asked)
+    assert asked == sums

@@ -1,0 +1,91 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bags as one recording; keys of a terminal."""
+
+import pytest
+from support.small_bags import BEGIN, LATCHED, MS, text_of, topic, write_bag
+
+from amr_description.bag.qos_text import QosProfile
+from amr_description.bag.reader import BagReader
+from amr_description.bag.recording import BagRecording, latched_depth, offer_of, SplitWatch
+from amr_description.bag.ros.keyboard import DOWN, names_of, RIGHT, SPACE, UP
+from amr_description.errors import BagError
+
+
+@pytest.fixture
+def recording(tmp_path):
+    topics = [topic('/static', LATCHED, LATCHED), topic('/map', LATCHED), topic('/chatter')]
+    texts = [
+        (0, '/map', 'm0'),
+        (1, '/static', 's1'),
+        (2, '/static', 's2'),
+        (3, '/chatter', 'c'),
+        (4, '/map', 'm4'),
+        (5, '/static', 's5'),
+        (6, '/chatter', 'c'),
+    ]
+    with BagReader(write_bag(tmp_path / 'bag', topics, texts)) as reader:
+        yield BagRecording([reader])
+
+
+@pytest.mark.parametrize(
+    ('after', 'latched'),
+    [
+        (0, []),
+        (2, ['m0', 's1']),
+        (4, ['m0', 's1', 's2']),
+        (6, ['s2', 'm4', 's5']),
+    ],
+)
+def test_each_publisher_has_latched_what_it_keeps(recording, after, latched):
+    found = recording.latched_before(BEGIN + after * MS)
+    assert [text_of(message.data) for message in found] == latched
+
+
+def test_begin_and_end_are_those_of_the_messages(recording):
+    assert (recording.start, recording.end) == (BEGIN, BEGIN + 6 * MS)
+
+
+def test_a_topic_of_two_types_is_refused(tmp_path):
+    kinds = ['std_msgs/msg/String', 'std_msgs/msg/Int32']
+    bags = [
+        write_bag(tmp_path / f'bag{n}', [topic('/chatter', kind=kind)], [])
+        for n, kind in enumerate(kinds)
+    ]
+    readers = [BagReader(bag) for bag in bags]
+    with pytest.raises(BagError, match='^/chatter has the type std_msgs/msg/Int32 in .*bag1, but'):
+        BagRecording(readers)
+    for reader in readers:
+        reader.close()
+
+
+def test_publishers_that_differ_but_in_depth_are_offered_as_they_were():
+    best = QosProfile(reliability='best_effort')
+    assert offer_of([QosProfile(depth=1, reliability='best_effort'), best]) == best
+    assert offer_of([best, QosProfile()]) == QosProfile()
+    assert offer_of([]) == QosProfile()
+    assert offer_of([LATCHED] * 12).depth == 12
+    assert offer_of([QosProfile(history='keep_all')]) == QosProfile()
+    assert latched_depth([LATCHED, QosProfile()]) == 1
+
+
+def test_files_follow_each_other_by_their_begins():
+    watch = SplitWatch([[(0, 'a'), (10, 'b'), (20, 'c')], [(0, 'alone')]])
+    assert watch.pass_time(9) == []
+    assert watch.pass_time(10) == [('a', 'b')]
+    assert watch.pass_time(11) == []
+    assert watch.pass_time(0) == []  # sought
+    assert watch.pass_time(25) == [('a', 'b'), ('b', 'c')]
+
+
+@pytest.mark.parametrize(
+    ('text', 'names'),
+    [
+        (b' ', [SPACE]),
+        (b'\x1b[A\x1bOB\x1b[C', [UP, DOWN, RIGHT]),
+        (b'\x1b[1;2Aq A\x1b[D', [SPACE]),
+        (b'\x1b', []),
+    ],
+)
+def test_keys_are_found_in_what_a_terminal_sends(text, names):
+    assert names_of(text) == names
