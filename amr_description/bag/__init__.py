@@ -12,11 +12,14 @@ nanoseconds.
 ``metadata.py``        ``metadata.yaml``
 ``schemas.py``         the text of a message type with all that it contains, for those who read it
 ``mcap_writer.py``     ``BagWriter``: a folder of MCAP files
+``mcap_options.py``    how they are written: presets, and files of options
 ``output_file.py``     the file below it: what is written is there, also when the program is killed
 ``reader.py``          ``BagReader``: messages in the order of their times, from whatever is there
 ``mcap_file.py``       an MCAP file, also one that was cut off
 ``sqlite_file.py``     a file of the older storage of rosbag2, to read
 ``compression.py``     files and messages that rosbag2 has compressed
+``info_text.py``       what ``ros2 bag info`` prints
+``topic_filter.py``    which topics are recorded
 ``topic_selection.py`` which topics are meant by the flags of a command line
 ``recording.py``       several bags as one recording, and what was latched at a time of it
 ``playback.py``        when each message is due; ``Playback``

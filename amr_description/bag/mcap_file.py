@@ -69,7 +69,8 @@ class McapFile:
         self.path = path
         self._stream = compression.open_file(path)
         try:
-            if self._stream.read(len(MAGIC)) != MAGIC:
+            head = self._stream.read(len(MAGIC))
+            if not MAGIC.startswith(head):
                 raise BagError(f'{path} is not an MCAP file: it does not begin as one')
             self._content = self._summary() or self._scanned()
         except BaseException:

@@ -3,30 +3,24 @@
 """``BagWriter``: a folder of MCAP files, as rosbag2 writes it."""
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from mcap.writer import CompressionType, Writer
+from mcap.writer import Writer
 
 from amr_description.bag import compression, metadata, qos_text, schemas
+from amr_description.bag.mcap_options import DEFAULTS, PRESETS
 from amr_description.bag.metadata import BagMetadata, FileInformation, TopicInformation
 from amr_description.bag.output_file import OutputFile
+from amr_description.bag.reader import reindexed
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
 
 MINIMUM_SPLIT_SIZE = 1024
 """Bytes: rosbag2 splits at no smaller ones."""
-_CHUNK_SIZE = 768 * 1024
-_ZSTD = {'compression': CompressionType.ZSTD}
-PRESETS: dict[str, dict[str, Any]] = {
-    'none': {},
-    'fastwrite': {'use_chunking': False},
-    'zstd_fast': _ZSTD,
-    'zstd_small': {**_ZSTD, 'chunk_size': 4 * 1024 * 1024, 'enable_crcs': True},
-}
-"""What each ``--storage-preset-profile`` asks of the library of MCAP."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +28,8 @@ class WriterOptions:
     """How a bag is written."""
 
     preset: str = 'none'
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    """For the library of MCAP, above those of the preset."""
     max_bag_size: int = 0
     """Bytes of a file from which on the next one begins; 0: it never does."""
     max_bag_duration: int = 0
@@ -158,8 +154,11 @@ class BagWriter:
         if self._file:
             try:
                 self._close_file()
-            finally:
-                metadata.write(self.folder, self._complete_metadata())
+            except BagError:
+                with suppress(BagError):  # what is there, not what was meant to be
+                    metadata.write(self.folder, reindexed(self.folder))
+                raise
+            metadata.write(self.folder, self._complete_metadata())
         return self.metadata
 
     def _is_full(self, file: '_McapFile', log_time: int) -> bool:
@@ -171,7 +170,9 @@ class BagWriter:
 
     def _open(self) -> '_McapFile':
         name = f'{self.folder.name}_{len(self.metadata.files)}.mcap'
-        file = _McapFile(self.folder / name, PRESETS[self.options.preset])
+        file = _McapFile(
+            self.folder / name, {**PRESETS[self.options.preset], **self.options.settings}
+        )
         self.metadata.relative_file_paths.append(name)
         self.metadata.files.append(file.information)
         for topic in self._topics.values():
@@ -210,19 +211,12 @@ class BagWriter:
 class _McapFile:
     """One file of a bag. Methods raise OSError."""
 
-    def __init__(self, path: Path, preset: Mapping[str, Any]) -> None:
+    def __init__(self, path: Path, settings: Mapping[str, Any]) -> None:
         self.information = FileInformation(path.name)
         self._output = OutputFile(path)
-        settings = {
-            'chunk_size': _CHUNK_SIZE,
-            'compression': CompressionType.NONE,
-            'enable_crcs': False,
-            **preset,
-        }
-        self._writer = Writer(self._output, **settings)  # type: ignore[arg-type]
+        self._writer = Writer(self._output, **{**DEFAULTS, **settings})  # type: ignore[arg-type]
         self._writer.start('ros2', f'amr_description, mcap {version("mcap")}')
         self._waiting = 0  # bytes of messages that may still wait for their chunk to be full
-        self._chunk_size = settings['chunk_size']
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         self._counts: dict[str, int] = {}

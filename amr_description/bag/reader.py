@@ -3,6 +3,7 @@
 """``BagReader``: the messages of a bag in the order of their times, from whatever is there."""
 
 from collections.abc import Collection, Iterable, Iterator
+from contextlib import suppress
 import heapq
 from pathlib import Path
 
@@ -25,13 +26,16 @@ class BagReader:
     Without ``metadata.yaml``, as after an interruption, the files say what is in them.
     """
 
-    def __init__(self, path: Path, storage: str | None = None) -> None:
+    def __init__(
+        self, path: Path, storage: str | None = None, *, with_metadata: bool = True
+    ) -> None:
         """
         Open all files of the bag.
 
         Args:
             path: a folder, or a file.
             storage: ``mcap`` or ``sqlite3``; None: what the bag says.
+            with_metadata: go by ``metadata.yaml``, if it is there; otherwise by the files alone.
 
         Raises:
             BagError: there is no bag, or it cannot be read.
@@ -42,7 +46,7 @@ class BagReader:
         if not path.exists():
             raise BagError(f'No such bag: {path} does not exist')
         if path.is_dir():
-            if (path / metadata.FILE_NAME).exists():
+            if with_metadata and (path / metadata.FILE_NAME).exists():
                 given = metadata.read(path)
             paths = _paths(path, given, storage)
         else:
@@ -188,6 +192,24 @@ def rebuilt(files: Iterable[McapFile] | Iterable[SqliteFile], storage: str) -> B
     return found
 
 
+def reindexed(folder: Path, storage: str | None = None) -> BagMetadata:
+    """
+    Return what the files of a folder say, whatever ``metadata.yaml`` does.
+
+    Of an older one the custom data is kept. Raises BagError.
+    """
+    with BagReader(folder, storage, with_metadata=False) as reader:
+        found = reader.metadata
+    if (folder / metadata.FILE_NAME).exists():
+        with suppress(BagError):
+            older = metadata.read(folder)
+            if older.compression_mode.upper() == 'MESSAGE':  # only it knows
+                found.compression_mode = older.compression_mode
+                found.compression_format = older.compression_format
+            found.custom_data = {**older.custom_data, **found.custom_data}
+    return found
+
+
 def storage_of(path: Path) -> str:
     """Return the name of the storage that a file is of. Raises BagError."""
     with compression.open_file(path) as stream:
@@ -196,6 +218,8 @@ def storage_of(path: Path) -> str:
         return 'mcap'
     if head == sqlite_file.MAGIC:
         return 'sqlite3'
+    if mcap_file.MAGIC.startswith(head) and '.mcap' in path.suffixes:
+        return 'mcap'  # cut off in its very beginning
     raise BagError(f'{path} is not a bag: it begins neither as an MCAP file nor as one of SQLite')
 
 

@@ -212,8 +212,19 @@ class SubscriptionWaiter:
     def __init__(self, subscriptions: Sequence[Subscription], context: Context) -> None:
         self._subscriptions = tuple(subscriptions)
         self._guard = GuardCondition(None, None, context)
-        with context.handle:
-            self._wait_set = _rclpy.WaitSet(len(subscriptions), 1, 0, 0, 0, 0, context.handle)
+        self._context = context
+        self._wait_set = self._made_for(len(subscriptions))
+
+    def serve(self, subscriptions: Sequence[Subscription]) -> None:
+        """Wait for these from now on; in the thread that waits."""
+        if len(subscriptions) > len(self._subscriptions):
+            self._wait_set.destroy_when_not_in_use()
+            self._wait_set = self._made_for(len(subscriptions))
+        self._subscriptions = tuple(subscriptions)
+
+    def _made_for(self, count: int) -> Any:
+        with self._context.handle:
+            return _rclpy.WaitSet(count, 1, 0, 0, 0, 0, self._context.handle)
 
     def wait(self) -> None:
         """Wait for a message, or for :meth:`wake`. Raises InvalidHandle: one was destroyed."""

@@ -4,5 +4,8 @@
 
 VERBS = {
     'burst': 'amr_description.cli.bag.burst',
+    'info': 'amr_description.cli.bag.info',
     'play': 'amr_description.cli.bag.play',
+    'record': 'amr_description.cli.bag.record',
+    'reindex': 'amr_description.cli.bag.reindex',
 }

@@ -17,7 +17,8 @@ import yaml
 
 from amr_description.bag import metadata, qos_text
 from amr_description.bag.compression import SUFFIX
-from amr_description.bag.mcap_writer import BagWriter, PRESETS, WriterOptions
+from amr_description.bag.mcap_options import PRESETS
+from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import BagMessage, TopicMetadata

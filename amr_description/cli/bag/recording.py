@@ -1,0 +1,184 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Record until a signal, for ``ros2 bag record``."""
+
+from argparse import Namespace
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+import sys
+
+from rclpy.logging import LoggingSeverity
+from rclpy.node import Node
+
+from amr_description.bag import mcap_options
+from amr_description.bag.info_text import size_text
+from amr_description.bag.mcap_writer import BagWriter, WriterOptions
+from amr_description.bag.qos_text import overrides_from_text
+from amr_description.bag.ros.keyboard import keys, SPACE
+from amr_description.bag.ros.recorder import Recorder, RecorderOptions
+from amr_description.bag.ros.recorder_services import (
+    offer_services,
+    split_publisher,
+    toggle_paused,
+)
+from amr_description.bag.topic_filter import TopicFilter
+from amr_description.cli.discovery import wait_for_discovery
+from amr_description.cli.names import full_name
+from amr_description.cli.session import open_session, Session
+from amr_description.ros.signals import StopRequested
+
+_SECOND = 10**9
+_STATUS_PERIOD = 1.0  # s
+
+
+def record(args: Namespace, folder: str) -> int:
+    """Record; return 0 after a signal. Raises BagError."""
+    overrides = args.qos_profile_overrides_path
+    profiles = overrides_from_text(overrides.read(), overrides.name) if overrides else {}
+    config = args.storage_config_file
+    settings = mcap_options.settings_from_text(config.read(), config.name) if config else {}
+    with open_session(name=args.node_name, use_sim_time=args.use_sim_time) as session:
+        node = session.node
+        node.get_logger().set_level(LoggingSeverity[args.log_level.upper()])
+        options = RecorderOptions(
+            topics=_filter(args, node),
+            overrides={full_name(node, topic): each for topic, each in profiles.items()},
+            use_sim_time=args.use_sim_time,
+            include_unpublished_topics=args.include_unpublished_topics,
+            ignore_leaf_topics=args.ignore_leaf_topics,
+            start_paused=args.start_paused,
+            snapshot_mode=args.snapshot_mode,
+            max_cache_size=args.max_cache_size,
+        )
+        writer_options = WriterOptions(
+            preset=args.storage_preset_profile,
+            settings=settings,
+            max_bag_size=args.max_bag_size,
+            max_bag_duration=args.max_bag_duration * _SECOND,
+            compress_files=args.compression_mode == 'file',
+            custom_data=dict(each.split('=', 1) for each in args.custom_data or ()),
+            on_split=split_publisher(node),
+        )
+        if args.no_discovery:
+            wait_for_discovery(session, None)
+        writer = BagWriter(Path(folder), writer_options)
+        recorder = Recorder(node, writer, options)
+        offer_services(recorder)
+        with suppress(StopRequested):
+            _run(session, recorder, writer, args)
+    return 0
+
+
+def _run(session: Session, recorder: Recorder, writer: BagWriter, args: Namespace) -> None:
+    """Record until a signal, or until nothing can be written. Raises BagError, StopRequested."""
+    log = recorder.node.get_logger()
+    bindings = {} if args.disable_keyboard_controls else {SPACE: lambda: toggle_paused(recorder)}
+    try:
+        with session.finishing() as is_stopping, keys(bindings) as has_keys:
+            if bindings and has_keys:
+                log.info('Press SPACE for pausing/resuming')
+            log.info('Listening for topics...')
+            recorder.start()
+            try:
+                _serve(session, recorder, args, is_stopping)
+            finally:
+                if is_stopping():
+                    log.info(
+                        'Writing remaining messages from cache to the bag. It may take a while'
+                    )
+                recorder.end()
+                _tell_lost(recorder)
+                writer.close()
+            if recorder.error:
+                raise recorder.error
+            log.info('Recording stopped')
+    finally:
+        _remove_if_empty(writer.folder)
+
+
+def _serve(
+    session: Session, recorder: Recorder, args: Namespace, is_stopping: Callable[[], bool]
+) -> None:
+    """Look for topics, serve the services, and say what is recorded, until a signal."""
+    log = recorder.node.get_logger()
+    period = max(args.polling_interval, 1) / 1000
+    status = Status(recorder)
+    began = looked = session.clock.now()
+    is_looking = True
+    log.info('Recording...')
+    while not is_stopping() and recorder.error is None:
+        now = session.clock.now()
+        if is_looking and (now - looked >= period or looked == began):
+            looked = now
+            for topic in recorder.discover():
+                log.info(f"Subscribed to topic '{topic}'")
+            if recorder.is_complete:
+                log.info('All requested topics are subscribed. Stopping discovery...')
+            is_looking = not (args.no_discovery or recorder.is_complete)
+        status.show(now - began)
+        session.clock.wait(period if is_looking else _STATUS_PERIOD, session.executor.spin_once)
+    status.clear()
+
+
+class Status:
+    """A line of what is recorded, a second, if somebody sits there."""
+
+    def __init__(self, recorder: Recorder) -> None:
+        self._recorder = recorder
+        self._is_seen = sys.stderr.isatty()
+        self._last = 0.0
+
+    def show(self, elapsed: float) -> None:
+        """Show it ``elapsed`` s after the start, if a second has gone."""
+        if self._is_seen and elapsed - self._last >= _STATUS_PERIOD:
+            self._last = elapsed
+            print(f'\r\x1b[K{self.text(elapsed)}', end='', file=sys.stderr, flush=True)
+
+    def text(self, elapsed: float) -> str:
+        """Return the line."""
+        recorder = self._recorder
+        lost = sum(recorder.lost.values())
+        return (
+            f'{elapsed:.0f} s: {recorder.messages_received} messages of '
+            f'{len(recorder.topics)} topics, {size_text(recorder.bytes_received)}'
+            f'{f", {lost} lost" if lost else ""}{", paused" if recorder.is_paused else ""}'
+        )
+
+    def clear(self) -> None:
+        """Leave the line empty."""
+        if self._is_seen:
+            print('\r\x1b[K', end='', file=sys.stderr, flush=True)
+
+
+def _tell_lost(recorder: Recorder) -> None:
+    for topic, count in sorted(recorder.lost.items()):
+        recorder.node.get_logger().warning(
+            f'Cache buffers lost messages per topic: {topic}: {count}; --max-cache-size is too '
+            'small, or the disk too slow'
+        )
+
+
+def _filter(args: Namespace, node: Node) -> TopicFilter:
+    def names(given: list[str] | None) -> list[str]:
+        return [full_name(node, name) for name in given or ()]
+
+    overridden = args.all or args.all_topics or args.all_services
+    return TopicFilter(
+        all_topics=args.all or args.all_topics,
+        all_services=args.all or args.all_services,
+        topics=names(args.topics),
+        topic_types=args.topic_types,
+        services=names(args.services),
+        regex='' if overridden else args.regex,
+        exclude_regex=args.exclude_regex,
+        exclude_topics=names(args.exclude_topics),
+        exclude_topic_types=args.exclude_topic_types,
+        exclude_services=names(args.exclude_services),
+        include_hidden_topics=args.include_hidden_topics,
+    )
+
+
+def _remove_if_empty(folder: Path) -> None:
+    with suppress(OSError):
+        folder.rmdir()

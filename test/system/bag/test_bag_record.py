@@ -1,0 +1,96 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``ros2 bag record`` as a user runs it, and what is left of it however it ends."""
+
+from pathlib import Path
+import re
+import signal
+import sys
+import time
+
+from fixtures.cli.commands import environment, ros2, started
+import pytest
+from rosbags.highlevel import AnyReader
+from support.running_programs import PATIENCE, Program
+
+from amr_description.bag.reader import BagReader
+
+CHATTER = ('topic', 'pub', '-r', '50', '/chatter', 'std_msgs/msg/String', 'data: hello')
+
+
+@pytest.fixture(scope='module', autouse=True)
+def chatter():
+    """Somebody who publishes."""
+    with started(*CHATTER) as program:
+        program.expect('publishing #1')
+        yield
+
+
+def recording(*words):
+    return started('bag', 'record', *map(str, words), terminal=True)
+
+
+def count(folder: Path) -> int:
+    with BagReader(folder) as reader:
+        return sum(1 for _ in reader.messages())
+
+
+def test_a_recording_says_what_it_does_and_rosbags_reads_it(tmp_path):
+    bag = tmp_path / 'bag'
+    with recording('/chatter', '-o', bag, '--custom-data', 'site=A') as program:
+        for line in (
+            'Press SPACE for pausing/resuming',
+            'Listening for topics...',
+            'Recording...',
+            "Subscribed to topic '/chatter'",
+            'All requested topics are subscribed. Stopping discovery...',
+            r'1 s: [1-9]\d* messages of 1 topics, ',
+        ):
+            program.expect(re.escape(line) if '\\' not in line else line)
+        program.type(' ')
+        program.expect('Pausing recording.')
+        program.type(' ')
+        program.expect('Resuming recording.')
+        program.type('\x03')
+        assert program.end() == 0
+        assert 'Recording stopped' in program.output
+    with AnyReader([bag]) as reader:
+        texts = {reader.deserialize(data, c.msgtype).data for c, _, data in reader.messages()}
+        assert texts == {'hello'}
+    found = ros2('bag', 'info', str(bag))
+    assert found.returncode == 0
+    assert 'Topic: /chatter | Type: std_msgs/msg/String | Count: ' in found.stdout
+    again = ros2('bag', 'record', '-a', '-o', str(bag))
+    assert (again.returncode, again.stderr) == (
+        1, f"[ERROR] [ros2bag]: Output folder '{bag}' already exists.\n"
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize('signum', [signal.SIGTERM, signal.SIGKILL])
+def test_what_ends_suddenly_plays(tmp_path, signum):
+    bag = tmp_path / 'bag'
+    with recording('--all', '-o', bag) as program:
+        program.expect("Subscribed to topic '/chatter'")
+        wait_for(lambda: count(bag) > 0)
+        code = program.end(signum)
+    assert code == (0 if signum == signal.SIGTERM else -signal.SIGKILL)
+    assert (bag / 'metadata.yaml').exists() == (signum == signal.SIGTERM)
+    assert count(bag) > 0
+
+
+def test_full_disk_is_one_line_and_what_was_written_plays(tmp_path):
+    """A file that must not grow is a disk without room."""
+    bag = tmp_path / 'bag'
+    script = f'ulimit -f 8; exec "$0" -m amr_description.cli ros2 bag record -a -o {bag}'
+    with Program('bash', '-c', script, sys.executable, env=environment()) as program:
+        assert program.end() == 1
+        assert re.search(r'cannot write .*bag_0.mcap: .*File too large', program.output)
+        assert 'Traceback' not in program.output
+    assert count(bag) > 0
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
