@@ -5,6 +5,7 @@
 from argparse import Namespace
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 import sys
 
@@ -34,40 +35,48 @@ _STATUS_PERIOD = 1.0  # s
 
 def record(args: Namespace, folder: str) -> int:
     """Record; return 0 after a signal. Raises BagError."""
-    overrides = args.qos_profile_overrides_path
-    profiles = overrides_from_text(overrides.read(), overrides.name) if overrides else {}
-    config = args.storage_config_file
-    settings = mcap_options.settings_from_text(config.read(), config.name) if config else {}
+    writing = writer_options(args)
     with open_session(name=args.node_name, use_sim_time=args.use_sim_time) as session:
         node = session.node
         node.get_logger().set_level(LoggingSeverity[args.log_level.upper()])
-        options = RecorderOptions(
-            topics=_filter(args, node),
-            overrides={full_name(node, topic): each for topic, each in profiles.items()},
-            use_sim_time=args.use_sim_time,
-            include_unpublished_topics=args.include_unpublished_topics,
-            ignore_leaf_topics=args.ignore_leaf_topics,
-            start_paused=args.start_paused,
-            snapshot_mode=args.snapshot_mode,
-            max_cache_size=args.max_cache_size,
-        )
-        writer_options = WriterOptions(
-            preset=args.storage_preset_profile,
-            settings=settings,
-            max_bag_size=args.max_bag_size,
-            max_bag_duration=args.max_bag_duration * _SECOND,
-            compress_files=args.compression_mode == 'file',
-            custom_data=dict(each.split('=', 1) for each in args.custom_data or ()),
-            on_split=split_publisher(node),
-        )
+        options = recorder_options(args, node)
         if args.no_discovery:
             wait_for_discovery(session, None)
-        writer = BagWriter(Path(folder), writer_options)
+        writer = BagWriter(Path(folder), replace(writing, on_split=split_publisher(node)))
         recorder = Recorder(node, writer, options)
         offer_services(recorder)
         with suppress(StopRequested):
             _run(session, recorder, writer, args)
     return 0
+
+
+def writer_options(args: Namespace) -> WriterOptions:
+    """Return how the bag is written. Raises BagError."""
+    config = args.storage_config_file
+    return WriterOptions(
+        preset=args.storage_preset_profile,
+        settings=mcap_options.settings_from_text(config.read(), config.name) if config else {},
+        max_bag_size=args.max_bag_size,
+        max_bag_duration=args.max_bag_duration * _SECOND,
+        compress_files=args.compression_mode == 'file',
+        custom_data=dict(each.split('=', 1) for each in args.custom_data or ()),
+    )
+
+
+def recorder_options(args: Namespace, node: Node) -> RecorderOptions:
+    """Return what is recorded; names are those of a node. Raises AmrError."""
+    overrides = args.qos_profile_overrides_path
+    profiles = overrides_from_text(overrides.read(), overrides.name) if overrides else {}
+    return RecorderOptions(
+        topics=_filter(args, node),
+        overrides={full_name(node, topic): each for topic, each in profiles.items()},
+        use_sim_time=args.use_sim_time,
+        include_unpublished_topics=args.include_unpublished_topics,
+        ignore_leaf_topics=args.ignore_leaf_topics,
+        start_paused=args.start_paused,
+        snapshot_mode=args.snapshot_mode,
+        max_cache_size=args.max_cache_size,
+    )
 
 
 def _run(session: Session, recorder: Recorder, writer: BagWriter, args: Namespace) -> None:

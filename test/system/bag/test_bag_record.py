@@ -3,6 +3,7 @@
 """``ros2 bag record`` as a user runs it, and what is left of it however it ends."""
 
 from pathlib import Path
+import random
 import re
 import signal
 import sys
@@ -76,6 +77,25 @@ def test_what_ends_suddenly_plays(tmp_path, signum):
     assert code == (0 if signum == signal.SIGTERM else -signal.SIGKILL)
     assert (bag / 'metadata.yaml').exists() == (signum == signal.SIGTERM)
     assert count(bag) > 0
+
+
+@pytest.mark.parametrize('rounds', [pytest.param(50, marks=pytest.mark.long)])
+def test_whenever_it_is_killed_what_is_left_is_read(tmp_path, rounds):
+    for number in range(rounds):
+        bag = tmp_path / f'bag{number}'
+        with started('bag', 'record', '--all', '-o', str(bag), '-b', '20000') as program:
+            program.expect("Subscribed to topic '/chatter'")
+            time.sleep(random.uniform(0, 2.5))  # noqa: S311 - any moment
+            assert program.end(signal.SIGKILL) == -signal.SIGKILL
+        with BagReader(bag) as reader:
+            times = [message.log_time for message in reader.messages(['/chatter'])]
+            assert times == sorted(times)
+            assert len(times) == reader.metadata.message_count - others(reader)
+
+
+def others(reader):
+    topics = reader.metadata.topics_with_message_count
+    return sum(each.message_count for each in topics if each.topic_metadata.name != '/chatter')
 
 
 def test_full_disk_is_one_line_and_what_was_written_plays(tmp_path):

@@ -1,0 +1,101 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Each flag of ``ros2 bag record`` is one of what records, or of what writes."""
+
+from argparse import ArgumentParser
+from types import SimpleNamespace
+
+from mcap.writer import CompressionType
+import pytest
+
+from amr_description.bag.mcap_writer import WriterOptions
+from amr_description.bag.qos_text import QosProfile
+from amr_description.bag.ros.recorder import RecorderOptions
+from amr_description.cli.bag.record_arguments import add_recorder_arguments
+from amr_description.cli.bag.recording import recorder_options, writer_options
+
+NODE = SimpleNamespace(get_name=lambda: 'recorder', get_namespace=lambda: '/')
+
+
+def parsed(*words):
+    parser = ArgumentParser()
+    add_recorder_arguments(parser)
+    return parser.parse_args([*map(str, words)])
+
+
+def test_defaults_are_those_of_what_records():
+    assert writer_options(parsed('-a')) == WriterOptions()
+    found = recorder_options(parsed('--topics', 'a'), NODE)
+    assert found == RecorderOptions(topics=found.topics)
+    args = parsed('-a')
+    assert (args.node_name, args.polling_interval, args.log_level) == (
+        'rosbag2_recorder', 100, 'info'
+    )  # fmt: skip
+    assert (args.storage, args.compression_mode) == ('mcap', 'none')
+
+
+@pytest.mark.parametrize(
+    ('words', 'name', 'value'),
+    [
+        ('--storage-preset-profile zstd_small', 'preset', 'zstd_small'),
+        ('-b 2000', 'max_bag_size', 2000),
+        ('-d 2', 'max_bag_duration', 2_000_000_000),
+        ('--compression-mode file --compression-format zstd', 'compress_files', True),
+        ('--custom-data a=b=c d=1 d=2', 'custom_data', {'a': 'b=c', 'd': '2'}),
+    ],
+)
+def test_flags_of_what_writes(words, name, value):
+    assert getattr(writer_options(parsed('-a', *words.split())), name) == value
+
+
+@pytest.mark.parametrize(
+    ('words', 'name', 'value'),
+    [
+        ('--use-sim-time', 'use_sim_time', True),
+        ('--include-unpublished-topics', 'include_unpublished_topics', True),
+        ('--ignore-leaf-topics', 'ignore_leaf_topics', True),
+        ('--start-paused', 'start_paused', True),
+        ('--snapshot-mode', 'snapshot_mode', True),
+        ('--max-cache-size 7', 'max_cache_size', 7),
+    ],
+)
+def test_flags_of_what_records(words, name, value):
+    assert getattr(recorder_options(parsed('-a', *words.split()), NODE), name) == value
+
+
+@pytest.mark.parametrize(
+    ('words', 'name', 'value'),
+    [
+        ('-a', 'all_topics', True),
+        ('-a', 'all_services', True),
+        ('--all-topics', 'all_topics', True),
+        ('--all-services', 'all_services', True),
+        ('--topics a /b', 'topics', ['/a', '/b']),
+        ('--services s', 'services', ['/s']),
+        ('--topic-types a/msg/B', 'topic_types', ['a/msg/B']),
+        ('-e x.*', 'regex', 'x.*'),
+        ('-a -e x.*', 'regex', ''),
+        ('--exclude-regex y', 'exclude_regex', 'y'),
+        ('--exclude-topics a', 'exclude_topics', ['/a']),
+        ('--exclude-topic-types a/msg/B', 'exclude_topic_types', ['a/msg/B']),
+        ('--exclude-services s', 'exclude_services', ['/s']),
+        ('--include-hidden-topics', 'include_hidden_topics', True),
+    ],
+)
+def test_flags_that_choose_topics(words, name, value):
+    assert getattr(recorder_options(parsed(*words.split()), NODE).topics, name) == value
+
+
+def test_files(tmp_path):
+    (tmp_path / 'qos.yaml').write_text('chatter: {reliability: best_effort}')
+    (tmp_path / 'mcap.yaml').write_text('compression: Lz4')
+    args = parsed(
+        '-a',
+        '--qos-profile-overrides-path',
+        tmp_path / 'qos.yaml',
+        '--storage-config-file',
+        tmp_path / 'mcap.yaml',
+    )
+    overrides = recorder_options(args, NODE).overrides
+    assert overrides == {'/chatter': QosProfile(reliability='best_effort')}
+    assert writer_options(args).settings == {'compression': CompressionType.LZ4}
