@@ -22,6 +22,7 @@ nanoseconds.
 ``topic_filter.py``    which topics are recorded
 ``topic_selection.py`` which topics are meant by the flags of a command line
 ``recording.py``       several bags as one recording, and what was latched at a time of it
+``rewriting.py``       new bags of the messages of others
 ``playback.py``        when each message is due; ``Playback``
 ``playback_clock.py``  the time of a recording while it is played
 ``ros/``               what records and what plays, as ROS nodes

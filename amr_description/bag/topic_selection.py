@@ -6,21 +6,21 @@ from collections.abc import Collection
 from dataclasses import dataclass
 import re
 
+from amr_description.bag import topic_filter
 from amr_description.bag.storage import TopicMetadata
+from amr_description.bag.topic_filter import EVENT_TOPIC
 from amr_description.errors import UsageError
 from amr_description.text import quote
-
-_EVENTS = '/_service_event'
 
 
 def is_service_event(topic: TopicMetadata) -> bool:
     """Return whether a topic has the events of a service: its requests and responses."""
-    return topic.name.endswith(_EVENTS) and topic.type.endswith('_Event')
+    return topic_filter.is_service_event(topic.name, topic.type)
 
 
 def event_topic(service: str) -> str:
     """Return the topic of the events of a service."""
-    return service + _EVENTS
+    return service + EVENT_TOPIC
 
 
 def full_name(name: str) -> str:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from amr_description.bag.reader import BagReader
 
 READERS = ('sqlite3', 'mcap')
+PRESETS = ('none', 'fastwrite', 'zstd_fast', 'zstd_small')
 
 
 def existing_path(text: str) -> str:
@@ -144,6 +145,25 @@ def add_selection_arguments(parser: ArgumentParser, what: str) -> None:
             nargs='+',
             help=f'Space-delimited list of {plural} not to {what}.',
         )
+
+
+def add_output_arguments(parser: ArgumentParser) -> None:
+    """Add ``output`` and ``storage_preset_profile`` of a verb that writes a bag."""
+    parser.add_argument(
+        '-o',
+        '--output',
+        help='Destination of the bagfile to create, defaults to a timestamped folder in the '
+        'current directory.',
+    )
+    parser.add_argument(
+        '--storage-preset-profile',
+        default='none',
+        choices=PRESETS,
+        help='Select a preset configuration for storage plugin "mcap". Profiles: none: Default '
+        'profile, no special settings; fastwrite: Disables CRC and chunking for faster writing; '
+        'zstd_fast: Use Zstd chunk compression on Fastest level; zstd_small: Use Zstd chunk '
+        'compression on Slowest level, for smallest file size.',
+    )
 
 
 def selection(args: Namespace) -> TopicSelection:

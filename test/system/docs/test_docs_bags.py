@@ -3,13 +3,14 @@
 """docs/bags.md, typed as it stands."""
 
 from contextlib import ExitStack
+import re
 import signal
 
 import pytest
 from support.doc_pages import Page
 from support.page_lines import command, typed
 from support.running_programs import Program
-from support.small_bags import LATCHED, topic, write_bag
+from support.small_bags import LATCHED, read_bag, topic, write_bag
 
 PAGE = Page('bags.md')
 
@@ -22,6 +23,19 @@ def folder(tmp_path_factory):
     texts = [(0, '/robot_description', 'robot'), *((n * 100, '/scan', 'x') for n in range(15))]
     write_bag(made / 'my_bag', topics, texts)
     return made
+
+
+def test_bags_are_cut_joined_and_converted(folder):
+    typed(PAGE, 'ros2 bag trim my_bag', folder)
+    typed(PAGE, 'ros2 bag filter my_bag', folder)
+    typed(PAGE, 'ros2 bag merge part', folder)
+    options = re.search(r'```yaml\n(# (smaller.yaml)\n.*?)```', PAGE.text, re.DOTALL)
+    (folder / options[2]).write_text(options[1])
+    typed(PAGE, 'ros2 bag convert -i my_bag', folder)
+    assert typed(PAGE, 'ros2 bag list storage', folder) == 'mcap\nsqlite3\n'
+    assert len(read_bag(folder / 'smaller_bag')) == 16
+    assert [text for _, _, text in read_bag(folder / 'part')] == ['robot', *'xxxxxx']
+    assert [text for _, _, text in read_bag(folder / 'together')] == ['robot', 'robot', *'xxxxxx']
 
 
 @pytest.mark.parametrize(

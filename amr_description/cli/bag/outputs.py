@@ -1,0 +1,42 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The bag that a verb makes of others."""
+
+from argparse import Namespace
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+from amr_description.bag.mcap_writer import WriterOptions
+from amr_description.bag.reader import BagReader
+from amr_description.bag.rewriting import Output, rewrite, with_custom_data
+
+
+def default_folder() -> Path:
+    """Return the name of a bag that was given none: by the time, as a recorder's."""
+    return Path(datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S'))
+
+
+def write(readers: Sequence[BagReader], args: Namespace, output: Output) -> int:
+    """
+    Write a bag, and print what is in it; return 0.
+
+    Args:
+        readers: whose messages are taken.
+        args: ``output`` and ``storage_preset_profile``.
+        output: what is taken; its folder and how it is written are by ``args``.
+
+    Raises:
+        BagError: a bag cannot be read or written.
+    """
+    folder = Path(args.output) if args.output else default_folder()
+    writer = with_custom_data(WriterOptions(preset=args.storage_preset_profile), readers)
+    print_written([folder], rewrite(readers, [replace(output, folder=folder, writer=writer)]))
+    return 0
+
+
+def print_written(folders: Sequence[Path], counts: Sequence[int]) -> None:
+    """Print how many messages each bag has."""
+    for folder, count in zip(folders, counts, strict=True):
+        print(f'{folder}: {count} messages')
