@@ -251,6 +251,17 @@ def test_the_next_file_is_told(host, tmp_path):
     )
 
 
+def test_what_cannot_be_acknowledged_is_told(host, tmp_path, capfd):
+    best = QosProfile(reliability='best_effort')
+    bag = write_bag(tmp_path / 'bag', [topic('/best', best), topic('/chatter')], NUMBERS)
+    host.hear('/chatter')
+    with host.player(bag, acked_timeout=0) as player:
+        player.start()
+        host.until(lambda: player.is_over)
+        host.until(lambda: len(host.heard) == 5)
+    assert '--wait-for-all-acked is invalid for the below topics' in capfd.readouterr().err
+
+
 def test_a_type_that_is_not_installed_is_left_out(host, tmp_path, capfd):
     with BagWriter(tmp_path / 'bag') as writer:
         writer.add_topic(TopicMetadata('/absent', 'absent_msgs/msg/Absent'), schema='int8 a')
