@@ -187,6 +187,10 @@ class McapFile:
         statistics = summary.statistics
         if statistics.message_count and not summary.chunk_indexes:
             return None
+        if len(summary.channels) < statistics.channel_count:
+            return None
+        if len(summary.schemas) < statistics.schema_count:
+            return None
         if any(not index.message_index_offsets for index in summary.chunk_indexes):
             return None
         parts = [

@@ -17,7 +17,7 @@ import yaml
 
 from amr_description.bag import metadata, qos_text
 from amr_description.bag.compression import SUFFIX
-from amr_description.bag.mcap_options import PRESETS
+from amr_description.bag.mcap_options import PRESETS, settings_from_text
 from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
@@ -68,6 +68,23 @@ def test_what_was_written_is_read(tmp_path, preset):
         assert reader.metadata.custom_data == {'a': 'b'}
         assert reader.metadata.duration == 1_999_000
         assert reader.schemas['std_msgs/msg/String'].endswith('string data\n')
+
+
+@pytest.mark.parametrize(
+    'option',
+    [
+        'noChunkIndex', 'noMessageIndex', 'noMetadataIndex', 'noRepeatedChannels',
+        'noRepeatedSchemas', 'noStatistics', 'noSummaryOffsets', 'noChunking',
+    ],
+)  # fmt: skip
+def test_files_that_lack_a_part_of_their_summary(tmp_path, option):
+    written = messages(1000, padding=1000)
+    bag = write(tmp_path / 'bag', written, settings=settings_from_text(f'{option}: true', 'x'))
+    (bag / 'metadata.yaml').unlink()
+    with BagReader(bag) as reader:
+        assert [*reader.messages()] == written
+        assert reader.topics['/chatter'] == CHATTER
+        assert 'std_msgs/msg/String' in reader.schemas
 
 
 def test_metadata_is_version_9_to_the_letter(tmp_path):
