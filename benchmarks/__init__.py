@@ -26,6 +26,7 @@ What ``scripts/bench`` (``python -m benchmarks``) measures; not installed.
 ``bare_loop.py``               that of ``mj_step`` alone, for comparison
 ``fleet.py``                   many robots in one simulator
 ``sensors.py``                  what lidars and cameras take
+``recording.py``               ``ros2 bag record``
 ``command_line.py``            the ``ros2`` command
 ``robot_state_publisher.py``   rate and load of robot_state_publisher
 ``page.py``                    many pages, plots, and the page in a browser

@@ -156,6 +156,12 @@ class Bench:
 
         return sensor_figures(self._node, self._seconds)
 
+    def recording(self) -> Figures:
+        """A recorder of many small messages, and of large ones."""
+        from benchmarks.recording import recording_figures
+
+        return recording_figures(self._node, self._seconds)
+
     def memory(self) -> Figures:
         """An hour of simulated time."""
         from benchmarks.load import memory_figures

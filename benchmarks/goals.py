@@ -86,6 +86,8 @@ GOALS = (
     Goal('depth', 'depths 320 × 240 of rays', '/s of a core', _AT_LEAST, 40.0, 'sensors', False),
     Goal('unheard', 'sensors that nobody hears, a cycle', 'µs', _AT_MOST, 5.0, 'sensors', False),
     Goal('sensors late', 'all sensors on, lateness p99 more by', 'ms', _AT_MOST, 1.0, 'sensors'),
+    Goal('small', 'ros2 bag record of 20,000/s of 100 B', '%', _AT_LEAST, 100.0, 'recording'),
+    Goal('large', 'ros2 bag record of 200 MB/s of 1 MB', '%', _AT_LEAST, 100.0, 'recording'),
     Goal('memory', 'one simulated hour, memory', 'MB more', _AT_MOST, 1.0, 'memory', False),
 )
 """All figures of the table, in its order."""

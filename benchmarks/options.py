@@ -16,6 +16,7 @@ PARTS = (
     'fleet',
     'fleet_start',
     'sensors',
+    'recording',
     'memory',
     'cold',
     'profile',

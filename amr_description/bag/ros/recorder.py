@@ -36,7 +36,9 @@ from amr_description.errors import AmrError, BagError
 from amr_description.ros.polled_topic import NeverCalled
 from amr_description.ros.rclpy_internals import SubscriptionWaiter, take_with_info
 
-_DEPTH = 5000  # messages that DDS keeps of a topic while the thread that takes them does not run
+# Messages that DDS keeps of a topic while the thread that takes them does not run: a second of a
+# fast one. It takes memory only then.
+_DEPTH = 20_000
 _AT_ONCE = 100  # messages of a topic that are taken before those of the next one
 _FLUSH_PERIOD = 1.0  # s: no more than that is lost if the program is killed
 
