@@ -27,6 +27,7 @@ What ``scripts/bench`` (``python -m benchmarks``) measures; not installed.
 ``fleet.py``                   many robots in one simulator
 ``sensors.py``                  what lidars and cameras take
 ``recording.py``               ``ros2 bag record``
+``playing.py``                 ``ros2 bag play``
 ``command_line.py``            the ``ros2`` command
 ``robot_state_publisher.py``   rate and load of robot_state_publisher
 ``page.py``                    many pages, plots, and the page in a browser

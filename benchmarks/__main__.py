@@ -162,6 +162,12 @@ class Bench:
 
         return recording_figures(self._node, self._seconds)
 
+    def playing(self) -> Figures:
+        """A player that plays ten times faster than recorded."""
+        from benchmarks.playing import playing_figures
+
+        return playing_figures(self._node, self._seconds)
+
     def memory(self) -> Figures:
         """An hour of simulated time."""
         from benchmarks.load import memory_figures

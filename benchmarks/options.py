@@ -17,6 +17,7 @@ PARTS = (
     'fleet_start',
     'sensors',
     'recording',
+    'playing',
     'memory',
     'cold',
     'profile',

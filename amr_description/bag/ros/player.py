@@ -165,6 +165,16 @@ class Player:
         if self._thread.ident is not None:
             self._thread.join()
 
+    def await_end(self) -> None:
+        """Wait until all was played, or it was stopped."""
+        self._thread.join()
+
+    def destroy(self) -> None:
+        """Destroy the publishers, after :meth:`end`; else the node has them until its own end."""
+        for publisher in (*self._publishers.values(), self._split_event, self._clock):
+            if publisher is not None:
+                self._node.destroy_publisher(publisher)
+
     @property
     def is_over(self) -> bool:
         """Whether all was played, or it was stopped."""
