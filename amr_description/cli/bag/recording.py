@@ -113,20 +113,21 @@ def _serve(
     log = recorder.node.get_logger()
     period = max(args.polling_interval, 1) / 1000
     status = Status(recorder)
-    began = looked = session.clock.now()
+    began = next_look = session.clock.now()
     is_looking = True
     log.info('Recording...')
     while not is_stopping() and recorder.error is None:
         now = session.clock.now()
-        if is_looking and (now - looked >= period or looked == began):
-            looked = now
+        if is_looking and now >= next_look:
+            next_look = now + period
             for topic in recorder.discover():
                 log.info(f"Subscribed to topic '{topic}'")
             if recorder.is_complete:
                 log.info('All requested topics are subscribed. Stopping discovery...')
             is_looking = not (args.no_discovery or recorder.is_complete)
         status.show(now - began)
-        session.clock.wait(period if is_looking else _STATUS_PERIOD, session.executor.spin_once)
+        left = min(next_look - now, _STATUS_PERIOD) if is_looking else _STATUS_PERIOD
+        session.clock.wait(left, session.executor.spin_once)
     status.clear()
 
 

@@ -12,7 +12,7 @@ from amr_description.bag.mcap_writer import WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.ros.recorder import RecorderOptions
 from amr_description.cli.bag.record_arguments import add_recorder_arguments
-from amr_description.cli.bag.recording import recorder_options, writer_options
+from amr_description.cli.bag.recording import _serve, recorder_options, writer_options
 
 NODE = SimpleNamespace(get_name=lambda: 'recorder', get_namespace=lambda: '/')
 
@@ -99,3 +99,57 @@ def test_files(tmp_path):
     overrides = recorder_options(args, NODE).overrides
     assert overrides == {'/chatter': QosProfile(reliability='best_effort')}
     assert writer_options(args).settings == {'compression': CompressionType.LZ4}
+
+
+class Looking:
+    """In place of a session and a recorder: time goes on by waiting, and a look finds nothing."""
+
+    def __init__(self, complete_after=100):
+        self.time, self.looks, self.complete_after = 0.0, 0, complete_after
+        self.clock = self.executor = self.node = self
+        self.error, self.lost = None, {}
+        self.said = []
+
+    spin_once = None
+
+    def now(self):
+        return self.time
+
+    def wait(self, timeout, _spin):
+        self.time += timeout
+
+    def get_logger(self):
+        return SimpleNamespace(info=self.said.append)
+
+    def discover(self):
+        self.looks += 1
+        return []
+
+    @property
+    def is_complete(self):
+        return self.looks >= self.complete_after
+
+
+@pytest.mark.parametrize(
+    ('words', 'looks'), [('', 10), ('-p 250', 4), ('-p 0', 1000), ('--no-discovery', 1)]
+)
+def test_topics_are_looked_for_as_often_as_wanted(words, looks):
+    host = Looking(complete_after=10**6)
+    _serve(host, host, parsed('-a', *words.split()), lambda: host.time >= 1.0 - 1e-9)
+    assert abs(host.looks - looks) <= looks // 10
+
+
+def test_looking_ends_when_all_that_has_a_name_is_there():
+    host = Looking(complete_after=3)
+    _serve(host, host, parsed('--topics', 'a'), lambda: host.time >= 1.0)
+    assert host.looks == 3
+    assert host.said == [
+        'Recording...', 'All requested topics are subscribed. Stopping discovery...'
+    ]  # fmt: skip
+
+
+def test_an_error_ends_it():
+    host = Looking()
+    host.error = 'no room'
+    _serve(host, host, parsed('-a'), lambda: False)
+    assert host.looks == 0

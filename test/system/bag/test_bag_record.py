@@ -70,8 +70,10 @@ def test_a_recording_says_what_it_does_and_rosbags_reads_it(tmp_path):
 @pytest.mark.parametrize('signum', [signal.SIGTERM, signal.SIGKILL])
 def test_what_ends_suddenly_plays(tmp_path, signum):
     bag = tmp_path / 'bag'
-    with recording('--all', '-o', bag) as program:
-        program.expect("Subscribed to topic '/chatter'")
+    words = ('--node-name', 'scribe', '--disable-keyboard-controls')
+    with recording('--all', '-o', bag, *words) as program:
+        program.expect(r"\[scribe\]: Subscribed to topic '/chatter'")
+        assert 'Press SPACE' not in program.output
         wait_for(lambda: count(bag) > 0)
         code = program.end(signum)
     assert code == (0 if signum == signal.SIGTERM else -signal.SIGKILL)
@@ -101,11 +103,13 @@ def others(reader):
 def test_full_disk_is_one_line_and_what_was_written_plays(tmp_path):
     """A file that must not grow is a disk without room."""
     bag = tmp_path / 'bag'
-    script = f'ulimit -f 8; exec "$0" -m amr_description.cli ros2 bag record -a -o {bag}'
+    words = f'ros2 bag record -a -o {bag} --log-level error'
+    script = f'ulimit -f 8; exec "$0" -m amr_description.cli {words}'
     with Program('bash', '-c', script, sys.executable, env=environment()) as program:
         assert program.end() == 1
         assert re.search(r'cannot write .*bag_0.mcap: .*File too large', program.output)
         assert 'Traceback' not in program.output
+        assert 'Recording' not in program.output
     assert count(bag) > 0
 
 
