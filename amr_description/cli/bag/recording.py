@@ -40,13 +40,14 @@ def record(args: Namespace, folder: str) -> int:
         node = session.node
         node.get_logger().set_level(LoggingSeverity[args.log_level.upper()])
         options = recorder_options(args, node)
-        if args.no_discovery:
-            wait_for_discovery(session, None)
-        writer = BagWriter(Path(folder), replace(writing, on_split=split_publisher(node)))
-        recorder = Recorder(node, writer, options)
-        offer_services(recorder)
+        writing = replace(writing, on_split=split_publisher(node))
         with suppress(StopRequested):
-            _run(session, recorder, writer, args)
+            if args.no_discovery:
+                wait_for_discovery(session, None)
+            with BagWriter(Path(folder), writing) as writer:
+                recorder = Recorder(node, writer, options)
+                offer_services(recorder)
+                _run(session, recorder, writer, args)
     return 0
 
 
@@ -83,27 +84,22 @@ def _run(session: Session, recorder: Recorder, writer: BagWriter, args: Namespac
     """Record until a signal, or until nothing can be written. Raises BagError, StopRequested."""
     log = recorder.node.get_logger()
     bindings = {} if args.disable_keyboard_controls else {SPACE: lambda: toggle_paused(recorder)}
-    try:
-        with session.finishing() as is_stopping, keys(bindings) as has_keys:
-            if bindings and has_keys:
-                log.info('Press SPACE for pausing/resuming')
-            log.info('Listening for topics...')
-            recorder.start()
-            try:
-                _serve(session, recorder, args, is_stopping)
-            finally:
-                if is_stopping():
-                    log.info(
-                        'Writing remaining messages from cache to the bag. It may take a while'
-                    )
-                recorder.end()
-                _tell_lost(recorder)
-                writer.close()
-            if recorder.error:
-                raise recorder.error
-            log.info('Recording stopped')
-    finally:
-        _remove_if_empty(writer.folder)
+    with session.finishing() as is_stopping, keys(bindings) as has_keys:
+        if bindings and has_keys:
+            log.info('Press SPACE for pausing/resuming')
+        log.info('Listening for topics...')
+        recorder.start()
+        try:
+            _serve(session, recorder, args, is_stopping)
+        finally:
+            if is_stopping():
+                log.info('Writing remaining messages from cache to the bag. It may take a while')
+            recorder.end()
+            _tell_lost(recorder)
+            writer.close()
+        if recorder.error:
+            raise recorder.error
+        log.info('Recording stopped')
 
 
 def _serve(
@@ -187,8 +183,3 @@ def _filter(args: Namespace, node: Node) -> TopicFilter:
         exclude_services=names(args.exclude_services),
         include_hidden_topics=args.include_hidden_topics,
     )
-
-
-def _remove_if_empty(folder: Path) -> None:
-    with suppress(OSError):
-        folder.rmdir()
