@@ -8,16 +8,24 @@ from pathlib import Path
 import pytest
 from rclpy.clock import ClockType
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import (
+    DurabilityPolicy,
+    qos_profile_system_default,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 from rclpy.serialization import deserialize_message
+from rclpy.service_introspection import ServiceIntrospectionState
 from rclpy.time import Time
 from rosbag2_interfaces.msg import WriteSplitEvent
 from rosbag2_interfaces.srv import IsPaused, Pause, Resume, Snapshot, SplitBagfile
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
+from std_srvs.srv import SetBool
 from support.ros_processes import PATIENCE
 
 from amr_description.bag import metadata
+from amr_description.bag.info_text import Contents, info_text
 from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
@@ -197,6 +205,28 @@ def test_services_pause_resume_and_split(tmp_path):
     assert events[0].closed_file == str(tmp_path / 'bag' / 'bag_0.mcap')
     assert events[0].opened_file == str(tmp_path / 'bag' / 'bag_1.mcap')
     assert events[0].node_name == '/recorder'
+
+
+def test_calls_of_a_service_are_recorded(tmp_path):
+    with hosted(tmp_path / 'bag', topics=TopicFilter(services=['/add'])) as host:
+        node = host.node
+        service = node.create_service(SetBool, 'add', lambda _, response: response)
+        service.configure_introspection(
+            node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.METADATA
+        )
+        host.subscribed('/add/_service_event')
+        host.until(lambda: node.get_subscriptions_info_by_topic('/add/_service_event'))
+        client = node.create_client(SetBool, 'add')
+        host.until(client.service_is_ready)
+        future = client.call_async(SetBool.Request())
+        host.until(lambda: future.done() and host.recorder.messages_received == 2)
+    contents = Contents()
+    with BagReader(tmp_path / 'bag') as reader:
+        for message in reader.messages():
+            contents.add(message)
+        assert contents.events == {'/add/_service_event': [0, 1, 1, 0]}  # as the server tells
+        assert 'SetBool_Request[<=1] request' in reader.schemas['std_srvs/srv/SetBool_Event']
+        assert 'Request Count: 1 | Response Count: 1' in info_text(reader.metadata, 0, contents)
 
 
 def test_snapshot_writes_what_is_in_memory_and_no_more(tmp_path):
