@@ -6,8 +6,9 @@ import importlib
 from types import ModuleType
 from typing import Any
 
+from amr_description.ament_index import packages
 from amr_description.errors import AmrError
-from amr_description.text import did_you_mean, shorten
+from amr_description.text import closest_match, did_you_mean, shorten
 
 # An attribute that only the classes of each kind have, not their parts beside them.
 _MARKS = {'msg': 'get_fields_and_field_types', 'srv': 'Request', 'action': 'Goal'}
@@ -54,8 +55,14 @@ def _interface(name: str, kind: str, invalid: str) -> Any:
     try:
         module = importlib.import_module(f'{package}.{kind}')
     except ImportError as error:
+        similar = closest_match(package, packages(), similarity=0.8)
+        hint = (
+            f'did you mean {similar}?'
+            if similar
+            else 'if it is in a workspace, source that first: source install/setup.bash'
+        )
         raise AmrError(
-            f"{invalid}: there is no package '{shorten(package)}' with {word}s"
+            f"{invalid}: there is no package '{shorten(package)}' with {word}s; {hint}"
         ) from error
     found = getattr(module, last, None)
     if not hasattr(found, _MARKS[kind]):
