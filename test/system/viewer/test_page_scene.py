@@ -56,8 +56,12 @@ def display(browser):
 
 
 @pytest.fixture(scope='module')
-def driven(browser):
-    """The page of a robot that drives in circles, for a minute, and has a joint to be moved."""
+def driven(browser, display):
+    """
+    The page of a robot that drives in circles, for a minute, and has a joint to be moved.
+
+    In a window beside that of ``display``, which is there first: its tab would hide this one.
+    """
     drive = LongDrive()
     claims = (f'{MOVED}/position',)
     movers = (ControllerInfo('mover', 'x/Mecanum', 'active', claims, moves=(MOVED,)),)
