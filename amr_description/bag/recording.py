@@ -15,6 +15,7 @@ from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
 
 _UNBOUNDED = 1000  # messages of a publisher that keeps all
+_TRANSFORMS = 'tf2_msgs/msg/TFMessage'
 
 
 class BagRecording:
@@ -81,6 +82,12 @@ class BagRecording:
         }
         if time <= self.start or not depths:
             return []
+        for name in depths:
+            # Who published what is not recorded. A transform that is published once must not be
+            # pushed out by another node's; older ones than the newest do no harm, in their order.
+            topic = self.topics[name]
+            if topic.type == _TRANSFORMS and len(topic.offered_qos_profiles) > 1:
+                depths[name] = _UNBOUNDED
         kept: dict[str, deque[BagMessage]] = {n: deque(maxlen=d) for n, d in depths.items()}
         for message in self._of(depths, 0, time - 1):
             kept[message.topic].append(message)

@@ -36,7 +36,11 @@ class SqliteFile:
                     self._unpacked = sink.name
                     shutil.copyfileobj(source, sink)
             uri = Path(self._unpacked or path).absolute().as_uri()
-            self._base = sqlite3.connect(f'{uri}?mode=ro', uri=True)
+            self._base = sqlite3.connect(
+                f'{uri}?mode=ro',
+                uri=True,
+                check_same_thread=False,  # a player reads in its thread what another one opened
+            )
             self._topics = self._read_topics()
         except (OSError, sqlite3.Error) as error:
             self._remove()

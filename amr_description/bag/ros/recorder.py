@@ -233,9 +233,10 @@ class Recorder:
             if not any([self._take(name, each) for name, each in served.items()]):
                 with suppress(InvalidHandle):
                     self._waiter.wait()
-        for name, each in served.items():
-            while self._take(name, each):
-                pass
+        for name, each in served.items():  # what waits now; not what comes all the time
+            for _ in range(_DEPTH // _AT_ONCE):
+                if not self._take(name, each):
+                    break
 
     def _take(self, topic: str, subscription: Subscription) -> bool:
         """Take some messages of a topic; return whether there may be more."""
@@ -264,14 +265,15 @@ class Recorder:
         """Write what comes, in a thread; a second after it was written it is safe."""
         if self.options.snapshot_mode:
             return
-        flushed, has_more = time.monotonic(), False
+        is_direct = not self.options.max_cache_size  # the thread that receives writes, too
+        flushed, has_more = time.monotonic(), is_direct
         while (messages := self._cache.wait(_FLUSH_PERIOD if has_more else None)) is not None:
             self._write(messages)
             has_more = has_more or bool(messages)
             if has_more and time.monotonic() - flushed >= _FLUSH_PERIOD:
                 with self._writing:
                     self._try(self._writer.flush)
-                flushed, has_more = time.monotonic(), False
+                flushed, has_more = time.monotonic(), is_direct
 
     def _write(self, messages: Iterable[BagMessage]) -> None:
         with self._writing:

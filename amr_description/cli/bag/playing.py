@@ -89,9 +89,11 @@ def _warn_of_absent(node: Node, recording: BagRecording, chosen: TopicSelection)
 def _refuse_second_clock(node: Node) -> None:
     topic = node.resolve_topic_name('/clock')
     own = node.get_fully_qualified_name()
-    found = {endpoint_node(each) for each in node.get_publishers_info_by_topic(topic)} - {own}
+    found = [endpoint_node(each) for each in node.get_publishers_info_by_topic(topic)]
+    if own in found:
+        found.remove(own)  # not those of other players: their name is the same
     if found:
-        others = ', '.join(sorted(name or 'a node' for name in found))
+        others = ', '.join(sorted({name or 'a node' for name in found}))
         raise BagError(
             f'{topic} is published by {others} already, and with two clocks the time of every '
             'node jumps back and forth: play without --clock and with --exclude-topics /clock, or '

@@ -31,6 +31,7 @@ from amr_description.ros.signals import StopRequested
 
 _SECOND = 10**9
 _STATUS_PERIOD = 1.0  # s
+_CLOCK_PERIOD = 0.02  # s between two looks for a simulated time
 
 
 def record(args: Namespace, folder: str) -> int:
@@ -111,9 +112,21 @@ def _serve(
     status = Status(recorder)
     began = next_look = session.clock.now()
     is_looking = True
-    log.info('Recording...')
+    # What is latched comes at once, and without a simulated time it would have none.
+    is_waiting = args.use_sim_time and not _has_time(recorder)
+    if is_waiting:
+        log.info('use_sim_time set, waiting for /clock before starting recording...')
+    else:
+        log.info('Recording...')
     while not is_stopping() and recorder.error is None:
         now = session.clock.now()
+        if is_waiting:
+            if not _has_time(recorder):
+                session.clock.wait(_CLOCK_PERIOD, session.executor.spin_once)
+                continue
+            is_waiting = False
+            log.info('Sim time /clock found, starting recording.')
+            log.info('Recording...')
         if is_looking and now >= next_look:
             next_look = now + period
             for topic in recorder.discover():
@@ -125,6 +138,10 @@ def _serve(
         left = min(next_look - now, _STATUS_PERIOD) if is_looking else _STATUS_PERIOD
         session.clock.wait(left, session.executor.spin_once)
     status.clear()
+
+
+def _has_time(recorder: Recorder) -> bool:
+    return recorder.node.get_clock().now().nanoseconds > 0
 
 
 class Status:

@@ -25,11 +25,13 @@ from rosbag2_interfaces.srv import (
     Stop,
     TogglePaused,
 )
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import get_typestore, Stores
 from rosgraph_msgs.msg import Clock
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
-from support.small_bags import BEGIN, LATCHED, MS, topic, write_bag
+from support.small_bags import BEGIN, LATCHED, MS, string, topic, write_bag
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.playback import PlaybackOptions
@@ -46,6 +48,7 @@ KEEP = QoSProfile(depth=100)
 KEEP_LATCHED = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 NUMBERS = [(10 * n, '/chatter', str(n)) for n in range(5)]
 PAUSED = PlaybackOptions(start_paused=True)
+SLOW = PlaybackOptions(rate=0.1)
 
 
 class Host:
@@ -119,6 +122,20 @@ def test_several_bags_are_played_by_their_times(host, bag, tmp_path):
         host.until(lambda: player.is_over and len(host.heard) == 6)
     assert host.texts == ['0', '1', 'between', '2', '3', '4']
     assert player.error is None
+
+
+def test_a_bag_of_sqlite_is_played(host, tmp_path):
+    store = get_typestore(Stores.ROS2_JAZZY)
+    with Writer(tmp_path / 'old', version=8, storage_plugin=StoragePlugin.SQLITE3) as writer:
+        connection = writer.add_connection('/chatter', 'std_msgs/msg/String', typestore=store)
+        for n in range(3):
+            writer.write(connection, BEGIN + n * MS, string(str(n)))
+    host.hear('/chatter')
+    with host.player(tmp_path / 'old') as player:
+        player.start()
+        host.until(lambda: player.is_over)
+        assert player.error is None
+        host.until(lambda: host.texts == ['0', '1', '2'])
 
 
 def test_services_control_it(host, bag):
@@ -207,7 +224,7 @@ def test_qos_is_as_recorded_or_as_overridden(host, tmp_path):
 
 def test_the_clock_has_the_times_of_the_recording(host, bag):
     host.hear('/clock', Clock)
-    with host.player(bag, awaited=('/clock',), clock_frequency=1000.0) as player:
+    with host.player(bag, awaited=('/clock',), clock_frequency=1000.0, playback=SLOW) as player:
         player.start()
         host.until(lambda: player.is_over and len(host.heard) > 5)
     times = [nanoseconds(message.clock) for _, message in host.heard]
@@ -221,7 +238,7 @@ def test_messages_have_the_clock_before_them(host, tmp_path, triggers, ticks):
     texts = [(0, '/chatter', 'a'), (10, '/other', 'b'), (20, '/chatter', 'c')]
     bag = write_bag(tmp_path / 'bag', [topic('/chatter'), topic('/other')], texts)
     host.hear('/clock', Clock)
-    with host.player(bag, awaited=('/clock',), clock_topics=triggers) as player:
+    with host.player(bag, awaited=('/clock',), clock_topics=triggers, playback=SLOW) as player:
         player.start()
         host.until(lambda: player.is_over and len(host.heard) >= len(ticks))
     times = [nanoseconds(message.clock) for _, message in host.heard]
@@ -240,7 +257,7 @@ def test_the_next_file_is_told(host, tmp_path):
     texts = [(n, '/chatter', 'x' * 2000) for n in range(0, 60, 20)]
     bag = write_bag(tmp_path / 'bag', [topic('/chatter')], texts, max_bag_size=2000)
     host.hear('/events/read_split', ReadSplitEvent)
-    with host.player(bag, awaited=('/events/read_split',)) as player:
+    with host.player(bag, awaited=('/events/read_split',), playback=SLOW) as player:
         player.start()
         host.until(lambda: player.is_over and len(host.heard) == 2)
     event = host.heard[0][1]

@@ -45,7 +45,7 @@ def test_a_recording_says_what_it_does_and_rosbags_reads_it(tmp_path):
             'Recording...',
             "Subscribed to topic '/chatter'",
             'All requested topics are subscribed. Stopping discovery...',
-            r'1 s: [1-9]\d* messages of 1 topics, ',
+            r'\d+ s: [1-9]\d* messages of 1 topics, ',
         ):
             program.expect(re.escape(line) if '\\' not in line else line)
         program.type(' ')
@@ -93,6 +93,24 @@ def test_whenever_it_is_killed_what_is_left_is_read(tmp_path, rounds):
             times = [message.log_time for message in reader.messages(['/chatter'])]
             assert times == sorted(times)
             assert len(times) == reader.metadata.message_count - others(reader)
+
+
+def test_what_was_latched_before_there_was_a_time_is_recorded(tmp_path):
+    bag, kind = tmp_path / 'bag', 'std_msgs/msg/String'
+    latched = ('--qos-durability', 'transient_local', '/latched', kind, 'data: hall')
+    clock = ('/clock', 'rosgraph_msgs/msg/Clock', 'clock: {sec: 7}')
+    once = ('-t', '1', '-w', '0', '--keep-alive', '60')
+    with started('topic', 'pub', *once, *latched) as publisher:
+        publisher.expect('publishing #1')
+        with recording('/latched', '--use-sim-time', '-o', bag) as program:
+            program.expect('use_sim_time set, waiting for /clock before starting recording...')
+            with started('topic', 'pub', '-r', '20', *clock):
+                program.expect('Sim time /clock found, starting recording.')
+                program.expect(r'\d+ s: 1 messages of 1 topics, ')
+                assert program.end(signal.SIGINT) == 0
+    with BagReader(bag) as reader:
+        (message,) = reader.messages()
+    assert message.log_time == 7 * 10**9
 
 
 def others(reader):

@@ -6,6 +6,7 @@ from contextlib import ExitStack
 import re
 import signal
 
+from fixtures.cli.commands import started
 import pytest
 from support.doc_pages import Page
 from support.page_lines import command, typed
@@ -13,6 +14,7 @@ from support.running_programs import Program
 from support.small_bags import LATCHED, read_bag, topic, write_bag
 
 PAGE = Page('bags.md')
+CLOCK = 'rosgraph_msgs/msg/Clock'
 
 
 @pytest.fixture(scope='module')
@@ -58,6 +60,10 @@ def test_recordings_begin_and_end(folder):
         'ros2 bag record --regex',
     )
     with ExitStack() as stack:
+        # A simulation, for --use-sim-time.
+        stack.enter_context(
+            started('topic', 'pub', '-r', '20', '/clock', CLOCK, 'clock: {sec: 7}')
+        )
         programs = [
             stack.enter_context(Program(*command(PAGE, line), cwd=folder)) for line in lines
         ]

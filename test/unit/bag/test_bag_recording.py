@@ -42,6 +42,14 @@ def test_each_publisher_has_latched_what_it_keeps(recording, after, latched):
     assert [text_of(message.data) for message in found] == latched
 
 
+def test_static_transforms_of_one_node_do_not_push_out_those_of_another(tmp_path):
+    static = topic('/tf_static', LATCHED, LATCHED, kind='tf2_msgs/msg/TFMessage')
+    texts = [(0, '/tf_static', 'of b'), (1, '/tf_static', 'of a'), (2, '/tf_static', 'of a, too')]
+    with BagReader(write_bag(tmp_path / 'bag', [static], texts)) as reader:
+        found = BagRecording([reader]).latched_before(BEGIN + 3 * MS)
+    assert [text_of(message.data) for message in found] == ['of b', 'of a', 'of a, too']
+
+
 def test_begin_and_end_are_those_of_the_messages(recording):
     assert (recording.start, recording.end) == (BEGIN, BEGIN + 6 * MS)
 
