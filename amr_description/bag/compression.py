@@ -18,13 +18,16 @@ SUFFIX = '.zstd'
 def compress_file(path: Path) -> Path:
     """Replace a file by a compressed one, which has ``.zstd`` behind its name. Raises BagError."""
     target = path.with_name(path.name + SUFFIX)
+    part = target.with_name(target.name + '.part')  # who is killed leaves nothing that looks whole
     try:
-        with path.open('rb') as source, target.open('wb') as sink:
+        with path.open('rb') as source, part.open('wb') as sink:
             zstandard.ZstdCompressor().copy_stream(source, sink)
+        part.replace(target)
         path.unlink()
     except OSError as error:
-        target.unlink(missing_ok=True)
         raise BagError(f'cannot compress {path}: {error}') from error
+    finally:
+        part.unlink(missing_ok=True)
     return target
 
 

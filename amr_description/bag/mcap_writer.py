@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """``BagWriter``: a folder of MCAP files, as rosbag2 writes it."""
 
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -63,6 +63,8 @@ class BagWriter:
         self._counts: dict[str, int] = {}
         self._texts: dict[str, str] = {}
         self._file: _McapFile | None = None
+        self._is_closed = False
+        self._has_failed = False
         try:
             folder.mkdir(parents=True)
             self._file = self._open()
@@ -102,6 +104,9 @@ class BagWriter:
         Args:
             topic: of which messages will come.
             schema: its text; None: that of the installed type.
+
+        Raises:
+            BagError: the disk is full, say.
         """
         if topic.type not in self._texts:
             text = schemas.schema_text(topic.type) if schema is None else schema
@@ -110,38 +115,36 @@ class BagWriter:
         self._topics[topic.name] = topic
         self._counts.setdefault(topic.name, 0)
         if is_new and self._file:
-            self._file.add_topic(topic, self._texts[topic.type])
+            with self._failing(f'cannot write {self.path}'):
+                self._file.add_topic(topic, self._texts[topic.type])
 
     def write(self, message: BagMessage) -> None:
         """Write a message of a topic that was declared. Raises BagError: the disk is full, say."""
         file = self._file
         if file is None:
             raise BagError(f'the bag {self.folder} is closed')
+        if file.information.message_count and self._is_full(file, message.log_time):
+            self.split()
+            file = self._file or file
         try:
-            if file.information.message_count and self._is_full(file, message.log_time):
-                self.split()
-                file = self._file or file
             file.write(message)
         except OSError as error:
+            self._has_failed = True
             raise BagError(f'cannot write {self.path}: {error}') from error
         self._counts[message.topic] += 1
         self.metadata.message_count += 1
 
     def flush(self) -> None:
         """Have all that was written in the file: nothing of it is lost from now on."""
-        try:
-            if self._file:
+        if self._file:
+            with self._failing(f'cannot write {self.path}'):
                 self._file.flush()
-        except OSError as error:
-            raise BagError(f'cannot write {self.path}: {error}') from error
 
     def split(self) -> None:
         """Go on in a new file. Raises BagError."""
         closed = self._close_file()
-        try:
+        with self._failing(f'cannot create a file of the bag {self.folder}'):
             self._file = self._open()
-        except OSError as error:
-            raise BagError(f'cannot create a file of the bag {self.folder}: {error}') from error
         if self.options.on_split:
             self.options.on_split(closed, self.path)
 
@@ -149,17 +152,34 @@ class BagWriter:
         """
         Complete the file and ``metadata.yaml``; again: nothing.
 
-        Raises BagError: what was written up to the last chunk is there nevertheless.
+        After an error the bag has what was written before, and ``metadata.yaml`` says so, if there
+        is room for it. Raises BagError.
         """
-        if self._file:
-            try:
-                self._close_file()
-            except BagError:
-                with suppress(BagError):  # what is there, not what was meant to be
-                    metadata.write(self.folder, reindexed(self.folder))
-                raise
+        if self._is_closed:
+            return self.metadata
+        self._is_closed = True
+        try:
+            self._close_file()
+        finally:
+            if self._has_failed:
+                with suppress(BagError):
+                    found = reindexed(self.folder)
+                    found.custom_data |= self.options.custom_data
+                    metadata.write(self.folder, found)
+        if not self._has_failed:
             metadata.write(self.folder, self._complete_metadata())
         return self.metadata
+
+    @contextmanager
+    def _failing(self, what: str) -> Iterator[None]:
+        """Raise BagError, which begins with ``what``, in place of an OSError."""
+        try:
+            yield
+        except (OSError, BagError) as error:
+            self._has_failed = True
+            if isinstance(error, BagError):
+                raise
+            raise BagError(f'{what}: {error}') from error
 
     def _is_full(self, file: '_McapFile', log_time: int) -> bool:
         options = self.options
@@ -184,22 +204,17 @@ class BagWriter:
         self._file = None
         if file is None:
             return path
-        try:
+        with self._failing(f'cannot write {path}'):
             file.close(self._complete_metadata())
-        except OSError as error:
-            raise BagError(f'cannot write {path}: {error}') from error
-        if self.options.compress_files:
-            path = compression.compress_file(path)
-            file.information.path = path.name
-            self.metadata.relative_file_paths[-1] = path.name
+            if self.options.compress_files:
+                path = compression.compress_file(path)
+                file.information.path = path.name
+                self.metadata.relative_file_paths[-1] = path.name
         return path
 
     def _complete_metadata(self) -> BagMetadata:
         whole = self.metadata
-        used = [file for file in whole.files if file.message_count]
-        whole.starting_time = min((file.starting_time for file in used), default=0)
-        end = max((file.starting_time + file.duration for file in used), default=0)
-        whole.duration = end - whole.starting_time
+        whole.span_files()
         whole.topics_with_message_count = [
             TopicInformation(topic, self._counts[name]) for name, topic in self._topics.items()
         ]
@@ -209,7 +224,11 @@ class BagWriter:
 
 
 class _McapFile:
-    """One file of a bag. Methods raise OSError."""
+    """
+    One file of a bag. Methods raise OSError; after one it ends with what was written before.
+
+    The library then has lost what did not fit, and still counts it: nothing more is written.
+    """
 
     def __init__(self, path: Path, settings: Mapping[str, Any]) -> None:
         self.information = FileInformation(path.name)
@@ -280,6 +299,8 @@ class _McapFile:
             compression_mode='',
         )
         try:
+            if self._output.is_cut_off:
+                return
             self.flush()
             text = metadata.to_text(alone, with_root=False)
             self._writer.add_metadata('rosbag2', {'serialized_metadata': text})

@@ -60,6 +60,13 @@ class BagMetadata:
         """When the last message was received."""
         return self.starting_time + self.duration
 
+    def span_files(self) -> None:
+        """Set the times to those of all files."""
+        used = [file for file in self.files if file.message_count]
+        self.starting_time = min((file.starting_time for file in used), default=0)
+        end = max((file.starting_time + file.duration for file in used), default=0)
+        self.duration = end - self.starting_time
+
 
 def to_node(metadata: BagMetadata) -> dict[str, Any]:
     """Return what YAML has below ``rosbag2_bagfile_information``, in version 9."""

@@ -183,11 +183,8 @@ def rebuilt(files: Iterable[McapFile] | Iterable[SqliteFile], storage: str) -> B
         if own:
             found.custom_data.update(own.custom_data)
             found.ros_distro = own.ros_distro
-    used = [file for file in found.files if file.message_count]
-    found.starting_time = min((each.starting_time for each in used), default=0)
-    end = max((each.starting_time + each.duration for each in used), default=0)
-    found.duration = end - found.starting_time
-    found.message_count = sum(each.message_count for each in used)
+    found.span_files()
+    found.message_count = sum(each.message_count for each in found.files)
     found.topics_with_message_count = list(topics.values())
     return found
 
@@ -227,7 +224,9 @@ def files_in(folder: Path, storage: str | None = None) -> list[Path]:
     """Return the files of a bag in a folder, by the numbers in their names. Raises BagError."""
     ends = [end for name in ([storage] if storage else STORAGES) for end in STORAGES[name]]
     names = tuple(ends) + tuple(end + compression.SUFFIX for end in ends)
-    found = [path for path in folder.iterdir() if path.name.endswith(names)]
+    found = {path for path in folder.iterdir() if path.name.endswith(names)}
+    # Both are there if a recorder was killed when it had just compressed one.
+    found -= {path.with_name(path.name + compression.SUFFIX) for path in found}
     if not found:
         raise BagError(
             f'{folder} is not a bag: there is neither {metadata.FILE_NAME} nor a file *.mcap or '

@@ -14,8 +14,9 @@ from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import get_typestore, Stores
 import yaml
+import zstandard
 
-from amr_description.bag import metadata, qos_text
+from amr_description.bag import compression, metadata, qos_text
 from amr_description.bag.compression import SUFFIX
 from amr_description.bag.mcap_options import PRESETS, settings_from_text
 from amr_description.bag.mcap_writer import BagWriter, WriterOptions
@@ -276,23 +277,86 @@ def test_killed_bag_has_all_that_was_flushed(tmp_path):
     writer.close()
 
 
-def test_full_disk_leaves_what_was_written(tmp_path, monkeypatch):
-    writer = BagWriter(tmp_path / 'bag')
+class FullDisk:
+    """In place of an unbuffered file: half of a write fits, and later there is room again."""
+
+    def __init__(self, file) -> None:
+        self.file, self.is_full = file, True
+
+    def write(self, data) -> int:
+        if not self.is_full:
+            return self.file.write(data)
+        if len(data) > 1:
+            return self.file.write(data[: len(data) // 2])
+        self.is_full = False
+        raise OSError(28, 'No space left on device')
+
+    def __getattr__(self, name):
+        return getattr(self.file, name)
+
+
+def test_full_disk_leaves_what_was_written(tmp_path):
+    writer = BagWriter(tmp_path / 'bag', WriterOptions(custom_data={'site': 'A'}))
     writer.add_topic(CHATTER)
     for message in messages(20):
         writer.write(message)
     writer.flush()
-
-    def no_room(*_):
-        raise OSError(28, 'No space left on device')
-
-    monkeypatch.setattr('amr_description.bag.output_file.OutputFile.write', no_room)
+    size = writer.path.stat().st_size
+    output = writer._file._output
+    output._file = FullDisk(output._file)
     writer.write(messages(21)[20])
     with pytest.raises(BagError, match='cannot write .*bag_0.mcap: .*No space left on device'):
         writer.flush()
-    monkeypatch.undo()
+    assert not output._file.is_full
+    writer.write(messages(22)[21])
+    with pytest.raises(BagError, match='cannot write .*bag_0.mcap: it was cut off'):
+        writer.flush()
     writer.close()
-    assert read(tmp_path / 'bag')[:20] == messages(20)
+    assert writer.path.stat().st_size == size
+    assert read(tmp_path / 'bag') == messages(20)
+    found = metadata.read(tmp_path / 'bag')
+    assert (found.message_count, found.custom_data) == (20, {'site': 'A'})
+
+
+def test_no_room_for_the_next_file_leaves_the_former_ones(tmp_path, monkeypatch):
+    def no_room(*_):
+        raise OSError(28, 'No space left on device')
+
+    writer = BagWriter(tmp_path / 'bag', WriterOptions(compress_files=True))
+    writer.add_topic(CHATTER)
+    writer.write(messages(1)[0])
+    monkeypatch.setattr('amr_description.bag.mcap_writer.OutputFile', no_room)
+    with pytest.raises(BagError, match='cannot create a file of the bag .*No space left'):
+        writer.split()
+    writer.close()
+    assert metadata.read(tmp_path / 'bag').relative_file_paths == ['bag_0.mcap.zstd']
+    assert read(tmp_path / 'bag') == messages(1)
+
+
+def test_no_room_to_compress_leaves_the_file(tmp_path, monkeypatch):
+    class NoRoomToCompress:
+        def copy_stream(self, source, sink):
+            sink.write(source.read(10))
+            raise OSError(28, 'No space left on device')
+
+    writer = BagWriter(tmp_path / 'bag', WriterOptions(compress_files=True))
+    writer.add_topic(CHATTER)
+    writer.write(messages(1)[0])
+    monkeypatch.setattr(compression.zstandard, 'ZstdCompressor', NoRoomToCompress)
+    with pytest.raises(BagError, match='cannot compress .*bag_0.mcap: .*No space left'):
+        writer.close()
+    assert {path.name for path in writer.folder.iterdir()} == {'bag_0.mcap', 'metadata.yaml'}
+    assert read(tmp_path / 'bag') == messages(1)
+
+
+@pytest.mark.parametrize('size', [-1, 100])
+def test_killed_while_it_compresses(tmp_path, size):
+    """Both files are there, the new one perhaps in part; the messages are found once."""
+    bag = write(tmp_path / 'bag', messages(3))
+    (bag / 'metadata.yaml').unlink()
+    packed = zstandard.compress((bag / 'bag_0.mcap').read_bytes())
+    (bag / f'bag_0.mcap{SUFFIX}').write_bytes(packed[:size])
+    assert read(bag) == messages(3)
 
 
 def test_bags_that_cannot_be_made_are_refused(tmp_path):
