@@ -7,6 +7,7 @@ One thread takes messages, another one writes them; that of the executor looks f
 serves the services.
 """
 
+from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -35,6 +36,8 @@ from amr_description.bag.topic_filter import TopicFilter
 from amr_description.errors import AmrError, BagError
 from amr_description.ros.polled_topic import NeverCalled
 from amr_description.ros.rclpy_internals import SubscriptionWaiter, take_with_info
+from amr_description.streams import print_traceback
+from amr_description.text import shorten
 
 # Messages that DDS keeps of a topic while the thread that takes them does not run: a second of a
 # fast one. It takes memory only then.
@@ -86,7 +89,10 @@ class Recorder:
         self._profiles: dict[str, QoSProfile] = {}
         self._topics: dict[str, TopicMetadata] = {}
         self._subscriptions: dict[str, Subscription] = {}
-        self._retired: list[Subscription] = []
+        # A topic that is subscribed to anew: the thread that receives takes what waits in the
+        # former subscription, and that of the executor then destroys it.
+        self._retired: deque[tuple[str, Subscription]] = deque()
+        self._drained: deque[Subscription] = deque()
         self._refused: set[str] = set()
         self._clock = node.get_clock()
         self._last_time = 0
@@ -109,7 +115,8 @@ class Recorder:
     def is_complete(self) -> bool:
         """Whether all topics that were asked for by name are there, and nothing else was."""
         wanted = self.options.topics
-        return wanted.names_all and wanted.names <= self._topics.keys()
+        is_replacing = bool(self._retired or self._drained)
+        return wanted.names_all and wanted.names <= self._topics.keys() and not is_replacing
 
     def start(self) -> None:
         """Begin to record."""
@@ -123,12 +130,14 @@ class Recorder:
         self._receiver.join()
         self._cache.close()
         self._scribe.join()
-        for subscription in (*self._subscriptions.values(), *self._retired):
+        self._destroy_drained()
+        for subscription in self._subscriptions.values():
             self.node.destroy_subscription(subscription)
         self._waiter.destroy()
 
     def discover(self) -> list[str]:
         """Subscribe to what is new; return the names of the topics."""
+        self._destroy_drained()
         found = []
         for topic, types in self.node.get_topic_names_and_types():
             if topic not in self._refused and self._is_wanted(topic, types):
@@ -201,13 +210,12 @@ class Recorder:
                     f"type are supported. Reason: '{error}'",
                 )
                 return []
-            if not is_new:
-                self._retired.append(self._subscriptions[topic])
         with self._writing:
-            self._writer.add_topic(metadata)
+            self._try(lambda: self._writer.add_topic(metadata))
         self._topics[topic] = metadata
         if is_new or profile != self._profiles[topic]:
             self._profiles[topic] = profile
+            former = self._subscriptions.get(topic)
             self._subscriptions[topic] = self.node.create_subscription(
                 message_class,
                 topic,
@@ -216,8 +224,14 @@ class Recorder:
                 callback_group=NeverCalled(),
                 raw=True,
             )
+            if former is not None:
+                self._retired.append((topic, former))
             self._waiter.wake()
         return [topic] if is_new else []
+
+    def _destroy_drained(self) -> None:
+        while self._drained:
+            self.node.destroy_subscription(self._drained.popleft())
 
     def _profile(self, topic: str, offered: list[QoSProfile]) -> QoSProfile:
         override = self.options.overrides.get(topic)
@@ -225,18 +239,35 @@ class Recorder:
 
     def _receive(self) -> None:
         """Take messages, in a thread."""
-        served: dict[str, Subscription] = {}
-        while not self._is_ending:
-            if served != self._subscriptions:
-                served = dict(self._subscriptions)
-                self._waiter.serve(list(served.values()))
-            if not any([self._take(name, each) for name, each in served.items()]):
-                with suppress(InvalidHandle):
-                    self._waiter.wait()
-        for name, each in served.items():  # what waits now; not what comes all the time
-            for _ in range(_DEPTH // _AT_ONCE):
-                if not self._take(name, each):
-                    break
+        try:
+            served: dict[str, Subscription] = {}
+            while not self._is_ending:
+                if served != self._subscriptions:
+                    served = self._replace()
+                if not any([self._take(name, each) for name, each in served.items()]):
+                    with suppress(InvalidHandle):
+                        self._waiter.wait()
+            for name, each in self._replace().items():
+                self._drain(name, each)
+        except Exception as error:
+            if not self._is_ending:
+                self._fail(error)
+
+    def _replace(self) -> dict[str, Subscription]:
+        """Wait for the present subscriptions from now on, and return them by topic."""
+        retired = [self._retired.popleft() for _ in range(len(self._retired))]
+        served = dict(self._subscriptions)  # none of the retired: each was replaced before
+        self._waiter.serve(list(served.values()))
+        for topic, each in retired:
+            self._drain(topic, each)
+            self._drained.append(each)
+        return served
+
+    def _drain(self, topic: str, subscription: Subscription) -> None:
+        """Take what waits now; not what comes all the time."""
+        for _ in range(_DEPTH // _AT_ONCE):
+            if not self._take(topic, subscription):
+                break
 
     def _take(self, topic: str, subscription: Subscription) -> bool:
         """Take some messages of a topic; return whether there may be more."""
@@ -247,14 +278,15 @@ class Recorder:
             if taken is None:
                 break
             data, info = taken
-            received = info['received_timestamp']
+            received = info['received_timestamp'] or time.time_ns()
             log_time = self._clock.now().nanoseconds if use_sim_time else received
             if self.is_paused or log_time <= 0:
                 self.messages_skipped += 1
                 continue
             self.messages_received += 1
             self.bytes_received += len(data)
-            messages.append(BagMessage(topic, data, log_time, info['source_timestamp']))
+            sent = max(0, info['source_timestamp'])  # -1: the publisher's middleware has none
+            messages.append(BagMessage(topic, data, log_time, sent))
         if messages and self.options.max_cache_size:
             self._cache.add(*messages)
         elif messages:
@@ -263,8 +295,13 @@ class Recorder:
 
     def _write_all(self) -> None:
         """Write what comes, in a thread; a second after it was written it is safe."""
-        if self.options.snapshot_mode:
-            return
+        try:
+            if not self.options.snapshot_mode:
+                self._write_until_end()
+        except Exception as error:
+            self._fail(error)
+
+    def _write_until_end(self) -> None:
         is_direct = not self.options.max_cache_size  # the thread that receives writes, too
         flushed, has_more = time.monotonic(), is_direct
         while (messages := self._cache.wait(_FLUSH_PERIOD if has_more else None)) is not None:
@@ -291,6 +328,13 @@ class Recorder:
             self._writer.split()
         self._last_time = message.log_time
         self._writer.write(message)
+
+    def _fail(self, error: Exception) -> None:
+        """Record no more, because of a fault of the program."""
+        print_traceback()
+        if self.error is None:
+            reason = shorten(f'{type(error).__name__}: {error}')
+            self.error = BagError(f'the recorder failed: {reason}')
 
     def _try(self, write: Callable[[], object]) -> None:
         if self.error is None:

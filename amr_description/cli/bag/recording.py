@@ -95,6 +95,7 @@ def _run(session: Session, recorder: Recorder, writer: BagWriter, args: Namespac
         finally:
             if is_stopping():
                 log.info('Writing remaining messages from cache to the bag. It may take a while')
+            session.stop.leave()  # a second Ctrl-C would tear the last chunk
             recorder.end()
             _tell_lost(recorder)
             writer.close()

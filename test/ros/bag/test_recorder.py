@@ -4,9 +4,11 @@
 
 from contextlib import contextmanager
 from pathlib import Path
+import time
 
 import pytest
 from rclpy.clock import ClockType
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
@@ -29,6 +31,7 @@ from amr_description.bag.info_text import Contents, info_text
 from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
+from amr_description.bag.ros import recorder
 from amr_description.bag.ros.message_cache import MessageCache
 from amr_description.bag.ros.recorder import adapted, Recorder, RecorderOptions
 from amr_description.bag.ros.recorder_services import offer_services, split_publisher
@@ -36,6 +39,7 @@ from amr_description.bag.storage import BagMessage
 from amr_description.bag.topic_filter import TopicFilter
 from amr_description.cli.session import open_session
 from amr_description.errors import BagError
+from amr_description.ros.rclpy_internals import take_with_info
 
 LATCHED = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 BEST_EFFORT = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -134,6 +138,60 @@ def test_who_offers_less_later_is_heard(tmp_path):
     assert texts(tmp_path / 'bag') == ['heard']
     [topic] = metadata.read(tmp_path / 'bag').topics_with_message_count
     assert len(topic.topic_metadata.offered_qos_profiles) == 2
+
+
+def test_what_waits_in_a_subscription_that_is_replaced_is_recorded(tmp_path, monkeypatch):
+    is_held = False
+
+    def take(subscription):
+        return None if is_held else take_with_info(subscription)
+
+    monkeypatch.setattr(recorder, 'take_with_info', take)
+    with hosted(tmp_path / 'bag', topics=TopicFilter(topics=['/a'])) as host:
+        first = host.node.create_publisher(String, 'a', 10)
+        host.subscribed('/a')
+        host.send(first, 'taken')
+        is_held = True
+        first.publish(String(data='waits'))
+        assert first.wait_for_all_acked(Duration(seconds=PATIENCE))
+        host.node.create_publisher(String, 'a', BEST_EFFORT)
+
+        def is_replaced() -> bool:
+            host.recorder.discover()
+            return len(host.recorder.topics['/a'].offered_qos_profiles) == 2
+
+        host.until(is_replaced)
+        assert not host.recorder.is_complete
+        is_held = False
+        host.recorder._waiter.wake()
+        host.until(lambda: host.recorder.messages_received == 2)
+
+        def is_alone() -> bool:
+            host.recorder.discover()
+            return host.node.count_subscribers('/a') == 1
+
+        host.until(is_alone)  # nothing fills the former one for ever
+        assert host.recorder.is_complete
+    assert texts(tmp_path / 'bag') == ['taken', 'waits']
+
+
+@pytest.mark.parametrize(('received', 'sent'), [(0, -1), (7, 5)])
+def test_times_that_the_middleware_has_not(tmp_path, monkeypatch, received, sent):
+    def take(subscription):
+        taken = take_with_info(subscription)
+        times = {'received_timestamp': received, 'source_timestamp': sent}
+        return taken and (taken[0], times)
+
+    monkeypatch.setattr(recorder, 'take_with_info', take)
+    before = time.time_ns()
+    with hosted(tmp_path / 'bag') as host:
+        publisher = host.node.create_publisher(String, 'a', 10)
+        host.subscribed('/a')
+        host.send(publisher, 'text')
+    with BagReader(tmp_path / 'bag') as reader:
+        [message] = reader.messages()
+    assert message.publish_time == max(0, sent)
+    assert message.log_time == received or message.log_time >= before
 
 
 def test_overridden_qos_is_subscribed_with(tmp_path):
@@ -270,6 +328,21 @@ def test_disk_that_is_full_ends_the_recording(tmp_path, monkeypatch, cache):
         monkeypatch.setattr(host.writer, 'write', no_room)
         host.send(publisher, 'text')
         host.until(lambda: host.recorder.error)
+
+
+@pytest.mark.parametrize('method', ['_take', '_write'])
+def test_a_fault_of_the_program_ends_the_recording(tmp_path, monkeypatch, capsys, method):
+    def fails(*_):
+        raise RuntimeError('of the program')
+
+    monkeypatch.setattr(Recorder, method, fails)
+    with hosted(tmp_path / 'bag') as host:
+        publisher = host.node.create_publisher(String, 'a', 10)
+        host.subscribed('/a')
+        publisher.publish(String(data='text'))
+        host.until(lambda: host.recorder.error)
+        assert str(host.recorder.error) == 'the recorder failed: RuntimeError: of the program'
+    assert 'Traceback' in capsys.readouterr().err
 
 
 def test_types_that_are_not_here_are_said_once(tmp_path):

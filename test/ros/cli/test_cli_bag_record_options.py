@@ -3,16 +3,24 @@
 """Each flag of ``ros2 bag record`` is one of what records, or of what writes."""
 
 from argparse import ArgumentParser
+import os
+import signal
 from types import SimpleNamespace
 
 from mcap.writer import CompressionType
 import pytest
+from support.ros_processes import PATIENCE
 
-from amr_description.bag.mcap_writer import WriterOptions
+from amr_description.bag import metadata
+from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
+from amr_description.bag.reader import BagReader
 from amr_description.bag.ros.recorder import RecorderOptions
+from amr_description.cli.bag import recording
 from amr_description.cli.bag.record_arguments import add_recorder_arguments
 from amr_description.cli.bag.recording import _serve, recorder_options, writer_options
+from amr_description.cli.ros2 import main
+from amr_description.ros.signals import STOP_SIGNALS
 
 NODE = SimpleNamespace(get_name=lambda: 'recorder', get_namespace=lambda: '/')
 
@@ -153,3 +161,31 @@ def test_an_error_ends_it():
     host.error = 'no room'
     _serve(host, host, parsed('-a'), lambda: False)
     assert host.looks == 0
+
+
+@pytest.fixture
+def handlers():
+    """Undo what is for a process that ends soon: it ignores further signals."""
+    before = {signum: signal.getsignal(signum) for signum in STOP_SIGNALS}
+    yield
+    for signum, handler in before.items():
+        signal.signal(signum, handler)
+
+
+def test_a_second_ctrl_c_leaves_the_bag_whole(tmp_path, monkeypatch, handlers):
+    def serve(session, _recorder, _args, is_stopping):
+        os.kill(os.getpid(), signal.SIGINT)
+        session.serve(is_stopping, PATIENCE)
+
+    close = BagWriter._close_file
+
+    def close_while_ctrl_c_is_pressed(writer):
+        os.kill(os.getpid(), signal.SIGINT)
+        return close(writer)
+
+    monkeypatch.setattr(recording, '_serve', serve)
+    monkeypatch.setattr(BagWriter, '_close_file', close_while_ctrl_c_is_pressed)
+    assert main(['bag', 'record', '-a', '-o', str(tmp_path / 'bag')]) == 0
+    assert metadata.read(tmp_path / 'bag').relative_file_paths == ['bag_0.mcap']
+    with BagReader(tmp_path / 'bag' / 'bag_0.mcap') as reader:
+        assert reader.metadata.message_count == 0
