@@ -16,6 +16,8 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph
 ``navigation/``         maps, paths and filters; in ``navigation/ros/`` their topics
 ``bag/``                recordings of topics: MCAP files; in ``bag/ros/`` recorder and player
+``doctor/``             what is wrong, and what mends it; ``doctor/host/`` reads the machine,
+                        ``doctor/ros/`` the graph
 ``ros/``                rclpy as every node uses it
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``
 ``bringup/``            the launcher: stacks, conditions, processes

@@ -52,8 +52,22 @@ ARROWS = {
     'workspace': set(),
     'control/ros': {'ros', 'control', 'controllers', 'hardware', 'model'},
     'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
-    'viewer/ros': {'viewer', 'ros', 'model'},
+    'viewer/ros': {'viewer', 'ros', 'model', 'doctor', 'doctor/host', 'doctor/ros'},
     'navigation/ros': {'navigation', 'ros', 'tf2_ros', 'model'},
+    # Its rules are pure; `host` reads this machine, `ros` the graph around it.
+    'doctor': {'model', 'navigation'},
+    'doctor/host': {'doctor', 'ros', 'bringup'},
+    'doctor/ros': {
+        'doctor',
+        'doctor/host',
+        'ros',
+        'tf2_ros',
+        'control/ros',
+        'navigation/ros',
+        'control',
+        'model',
+        'navigation',
+    },
     'interface_build': set(),  # builds call it by its path
     'bringup': {'model'},
     # Its actions are translated into stacks.
@@ -62,6 +76,9 @@ ARROWS = {
         'bag',
         'bag/ros',
         'bringup',
+        'doctor',
+        'doctor/host',
+        'doctor/ros',
         'launch_api',
         'control/ros',
         'controllers',
@@ -79,10 +96,10 @@ ABOVE_NODES = {'bringup', 'launch_api', 'cli', 'testing', 'workspace', 'amr_desc
 ARROWS['nodes'] = ARROWS.keys() - ABOVE_NODES - FOR_USERS
 ROS = {
     'control/ros', 'sim/ros', 'viewer/ros', 'navigation/ros', 'ros', 'tf2_ros',
-    'bag/ros', 'message_filters', 'sensor_msgs_py', 'nodes', 'cli', 'testing',
+    'bag/ros', 'doctor/ros', 'message_filters', 'sensor_msgs_py', 'nodes', 'cli', 'testing',
 }  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
-PURE = {'base', 'model', 'control', 'controllers', 'navigation', 'bag'}
+PURE = {'base', 'model', 'control', 'controllers', 'navigation', 'bag', 'doctor'}
 # Heavy libraries have one home each.
 HOMES = {
     'rclpy': ROS,
@@ -127,7 +144,7 @@ def room_of(module: str) -> str:
         return 'amr_description'
     if parts[0] in BASE:
         return 'base'
-    return '/'.join(parts[:2]) if parts[1:2] == ['ros'] else parts[0]
+    return '/'.join(parts[:2]) if parts[1:2] in (['ros'], ['host']) else parts[0]
 
 
 @cache

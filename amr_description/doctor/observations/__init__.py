@@ -1,0 +1,50 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What was seen of a machine and a ROS graph. A section that was not observed is None.
+
+===================  =============================================================================
+``machine.py``       the machine: system, Python, memory, disks, network
+``environment.py``   the environment variables of this process
+``processes.py``     the processes of this host that are of ROS
+``graph.py``         nodes, topics, services and their types and QoS
+``clock.py``         ``/clock``, ``use_sim_time``, stamps, the real-time factor
+``commands.py``      velocity commands, and who listens to them
+``transforms.py``    ``/tf`` and ``/tf_static``
+``description.py``   ``robot_description``, as published and as simulated
+``controllers.py``   controller managers, controllers, hardware components
+``sensors.py``       scans, pictures, IMUs and odometry
+===================  =============================================================================
+"""
+
+from dataclasses import dataclass
+
+from amr_description.doctor.observations.clock import Clock
+from amr_description.doctor.observations.commands import Commands
+from amr_description.doctor.observations.controllers import Controllers
+from amr_description.doctor.observations.description import Description
+from amr_description.doctor.observations.environment import Environment
+from amr_description.doctor.observations.graph import Graph
+from amr_description.doctor.observations.machine import Machine
+from amr_description.doctor.observations.processes import Processes
+from amr_description.doctor.observations.sensors import Sensors
+from amr_description.doctor.observations.transforms import Transforms
+from amr_description.navigation.contract.observations import Observations as Navigation
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Observations:
+    """All that was seen; a rule is silent about a section that is None."""
+
+    machine: Machine | None = None
+    environment: Environment | None = None
+    processes: Processes | None = None
+    graph: Graph | None = None
+    clock: Clock | None = None
+    commands: Commands | None = None
+    transforms: Transforms | None = None
+    description: Description | None = None
+    controllers: Controllers | None = None
+    sensors: Sensors | None = None
+    navigation: Navigation | None = None
+    """Of a robot to which Nav2 or slam_toolbox listen."""

@@ -1,0 +1,64 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Collects the sections of a ROS graph, by a probe each, within one window of time.
+
+A probe publishes nothing, calls no service that changes anything, and holds nobody up: where
+messages are large, or many, it subscribes with best effort and a short queue.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+from rclpy.node import Node
+
+from amr_description.doctor.observations import Observations
+
+WINDOW = 3.0
+"""s: longest time in which messages and answers are waited for."""
+
+
+class Probe(Protocol):
+    """Observes one section."""
+
+    def begin(self, node: Node) -> None:
+        """Subscribe and ask; the graph is complete, as far as can be known."""
+
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing more would be learnt by waiting; asked after each callback."""
+
+    def observe(self) -> Any:
+        """Return the section as seen until now; at the end of the window, done or not."""
+
+
+type Spin = Callable[[Callable[[], bool], float], bool]
+"""Runs the callbacks of the node until a function returns True, at most for so many s."""
+
+PROBES: dict[str, Callable[[], Probe]] = {}
+"""Fields of Observations, and what makes the probe of each."""
+
+
+def collect(
+    node: Node,
+    spin: Spin,
+    *,
+    window: float = WINDOW,
+    probes: Mapping[str, Callable[[], Probe]] = PROBES,
+    **sections: Any,
+) -> Observations:
+    """
+    Observe a graph.
+
+    Args:
+        node: whose subscriptions and clients are made; the graph around it has been discovered.
+        spin: runs its callbacks.
+        window: longest time, s; it ends as soon as all probes are done.
+        probes: by section.
+        sections: what was observed otherwise, of the host.
+    """
+    begun = {name: make() for name, make in probes.items()}
+    for probe in begun.values():
+        probe.begin(node)
+    spin(lambda: all(probe.is_done for probe in begun.values()), window)
+    return Observations(**sections, **{name: probe.observe() for name, probe in begun.items()})
