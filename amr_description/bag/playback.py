@@ -82,6 +82,7 @@ class Playback:
     def _begin(self, options: PlaybackOptions) -> None:
         self._options = options
         self._start = self._recording.start + max(options.start_offset, 0)
+        self._from = self._start
         self._until = _last_time(options, self._start)
         self._begins_at: int | None = self._steady() + options.delay
         self._latched: deque[BagMessage] = deque()
@@ -98,6 +99,11 @@ class Playback:
     def now(self) -> int:
         """Return the time of the recording, ns; before the first message is due, its begin."""
         return self.clock.now() if self._begins_at is None else self._start
+
+    @property
+    def begin(self) -> int:
+        """The place from which it plays, ns: what is older was latched, and comes at once."""
+        return self._from
 
     @property
     def is_at_end(self) -> bool:
@@ -176,6 +182,7 @@ class Playback:
         return True
 
     def _go_to(self, time: int) -> None:
+        self._from = time
         self._latched = deque(self._recording.latched_before(time))
         self._queue.clear()
         self._rest = self._recording.messages(time)

@@ -37,6 +37,7 @@ _SECOND = 10**9
 _SPARE = 2_000_000  # ns; with more than that to wait, messages are read ahead
 _LONGEST_WAIT = 3600.0  # s
 _ACKNOWLEDGED = 0.5  # s; subscriptions acknowledge within 0.1 s, or never
+_ANSWERED = 2.0  # s; a service that takes longer has the request for sure
 _POLL = 0.1  # s
 NOT_WAITED_FOR = -1
 
@@ -262,7 +263,11 @@ class Player:
         return self.playback.poll()
 
     def _call(self, function: Callable[[], Any]) -> Any:
-        """Have a function called by the thread of the player; return what it returns."""
+        """
+        Have a function called by the thread of the player; return what it returns.
+
+        One that fails there ends playing, as :attr:`error` says: then this returns None.
+        """
         done = threading.Event()
         results = []
 
@@ -281,23 +286,32 @@ class Player:
             done.wait()
         else:
             call()
-        return results[0]
+        return results[0] if results else None
 
     def _run(self) -> None:
         try:
             self._play()
             self._await_acknowledgements()
-        except AmrError as error:
-            self._log.error(f'Failed to play: {error}')
-            self.error = error
+            self._await_answers()
         except BaseException as error:
-            print_traceback()
-            self.error = error
+            self._fail(error)
         finally:
             with self._lock:
                 self._is_over = True
-            self._do_calls()
+            while self._calls:  # each has somebody who waits for it
+                try:
+                    self._do_calls()
+                except BaseException as error:
+                    self._fail(error)
             self._on_finished()
+
+    def _fail(self, error: BaseException) -> None:
+        if self.error is None:
+            self.error = error
+            if isinstance(error, AmrError):
+                self._log.error(f'Failed to play: {error}')
+            else:
+                print_traceback()
 
     def _play(self) -> None:
         playback = self.playback
@@ -343,7 +357,9 @@ class Player:
 
     def _publish(self, message: BagMessage) -> bool:
         """Publish a message, or send it as a request; return whether that was done."""
-        for closed, opened in self._splits.pass_time(message.log_time):
+        # What was latched is older than the place that it is played at, and time never goes back.
+        time = max(message.log_time, self.playback.begin)
+        for closed, opened in self._splits.pass_time(time):
             self._split_event.publish(
                 ReadSplitEvent(
                     closed_file=str(closed),
@@ -356,7 +372,7 @@ class Player:
             return self._requests.send(message)
         triggers = self._options.clock_topics
         if triggers is not None and (not triggers or message.topic in triggers):
-            self._publish_clock(message.log_time)
+            self._publish_clock(time)
         publisher.publish(message.data)
         return True
 
@@ -380,6 +396,14 @@ class Player:
                             f'acknowledged for topic {name}'
                         )
                     break
+
+    def _await_answers(self) -> None:
+        """Wait until requests have arrived: one whose client goes at once may be dropped."""
+        deadline = wall.monotonic() + _ANSWERED
+        while not self._ending and self._requests.is_waiting and wall.monotonic() < deadline:
+            self._wake.wait(_POLL)
+            self._wake.clear()
+            self._do_calls()
 
 
 def _is_reliable(publisher: Publisher) -> bool:

@@ -7,6 +7,7 @@ from typing import Any
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
+from rclpy.task import Future
 from service_msgs.msg import ServiceEventInfo
 
 from amr_description.bag.storage import BagMessage, TopicMetadata
@@ -30,6 +31,7 @@ class ServiceRequests:
         self._event = SOURCES.get(source)
         self._clients: dict[str, tuple[Client, Any]] = {}
         self._told: set[str] = set()
+        self._sent: list[Future] = []
 
     def add(self, topic: TopicMetadata) -> None:
         """Make the client for the topic of a service's events. Raises AmrError: its type."""
@@ -57,8 +59,14 @@ class ServiceRequests:
                 f"Service request hasn't been sent. The '{client.srv_name}' service isn't ready !"
             )
             return False
-        client.call_async(event.request[0])
+        self._sent = [each for each in self._sent if not each.done()]
+        self._sent.append(client.call_async(event.request[0]))
         return True
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether a request was not answered yet."""
+        return not all(each.done() for each in self._sent)
 
     def _warn_once(self, name: str, text: str) -> None:
         if name not in self._told:

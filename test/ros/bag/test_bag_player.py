@@ -38,9 +38,11 @@ from amr_description.bag.playback import PlaybackOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
 from amr_description.bag.recording import BagRecording
+from amr_description.bag.ros import player as player_module
 from amr_description.bag.ros.player import Player, PlayerOptions
 from amr_description.bag.ros.player_services import offer_services
 from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.errors import BagError
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
 
@@ -245,6 +247,49 @@ def test_messages_have_the_clock_before_them(host, tmp_path, triggers, ticks):
     assert times == [BEGIN + tick * MS for tick in ticks]
 
 
+def test_time_does_not_go_back_for_what_was_latched(host, tmp_path):
+    texts = [(0, '/map', 'm'), (20, '/chatter', 'a'), (60, '/chatter', 'b')]
+    bag = write_bag(tmp_path / 'bag', [topic('/map', LATCHED), topic('/chatter')], texts)
+    host.hear('/clock', Clock)
+    playback = PlaybackOptions(start_paused=True, start_offset=10 * MS)
+    with host.player(bag, awaited=('/clock',), clock_topics=(), playback=playback) as player:
+        player.start()
+        assert player.burst(1) == 1
+        player.seek(BEGIN + 50 * MS)
+        assert player.burst(1) == 1
+        host.until(lambda: len(host.heard) == 4)
+    times = [(nanoseconds(message.clock) - BEGIN) // MS for _, message in host.heard]
+    assert times == [10, 20, 50, 60]
+
+
+def test_what_fails_for_a_caller_ends_playing(host, bag, capfd):
+    with host.player(bag, awaited=(), playback=PAUSED) as player:
+
+        def fail(_count):
+            raise BagError('a chunk cannot be read')
+
+        player._burst = fail
+        player.start()
+        assert host.call(Burst, 'burst').actually_burst == 0
+        host.until(lambda: player.is_over)
+        assert host.call(IsPaused, 'is_paused').paused
+    assert str(player.error) == 'a chunk cannot be read'
+    assert capfd.readouterr().err.count('Failed to play: a chunk cannot be read') == 1
+
+
+def test_who_waits_at_the_end_is_not_forgotten(host, bag):
+    """Though what another one wants then fails."""
+    finished = []
+    with host.player(bag, awaited=(), playback=PAUSED) as player:
+        player._on_finished = lambda: finished.append(player.error)
+        player._calls.extend([lambda: 1 / 0, lambda: finished.append(1)])
+        player._ending = True  # nothing is played
+        player.start()
+        player.await_end()
+    assert finished[0] == 1
+    assert isinstance(finished[1], ZeroDivisionError)
+
+
 def test_the_recorded_clock_gives_way_to_ours(host, tmp_path):
     topics = [topic('/clock', kind='rosgraph_msgs/msg/Clock'), topic('/chatter')]
     bag = write_bag(tmp_path / 'bag', topics, NUMBERS)
@@ -293,7 +338,7 @@ def test_a_type_that_is_not_installed_is_left_out(host, tmp_path, capfd):
 @pytest.mark.parametrize(
     ('source', 'sums'), [('service_introspection', [3]), ('client_introspection', [7])]
 )
-def test_recorded_requests_are_sent(host, tmp_path, source, sums):
+def test_recorded_requests_are_sent(host, tmp_path, monkeypatch, source, sums):
     """Of the side that is asked for; responses are there, too."""
     events = [
         (ServiceEventInfo.REQUEST_SENT, AddTwoInts.Request(a=3, b=4)),
@@ -308,6 +353,7 @@ def test_recorded_requests_are_sent(host, tmp_path, source, sums):
             event.info.event_type = event_type
             writer.write(BagMessage(name, serialize_message(event), BEGIN + number, BEGIN))
     asked = []
+    monkeypatch.setattr(player_module, '_ANSWERED', PATIENCE)
 
     def add(request, response):
         asked.append(request.a + request.b)
@@ -318,5 +364,7 @@ def test_recorded_requests_are_sent(host, tmp_path, source, sums):
         client = next(c for c in host.node.clients if c.srv_name == '/add')
         host.until(client.service_is_ready)
         player.start()
-        host.until(lambda: player.is_over and asked)
+        player._thread.join(0.1)
+        assert not player.is_over  # before the last one has arrived
+        host.until(lambda: player.is_over)
     assert asked == sums
