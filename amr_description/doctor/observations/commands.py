@@ -1,10 +1,110 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Velocity commands, and who listens to them."""
+"""
+Velocity commands: who sends them, what they say, and what the drives take.
+
+Times are integer ns, velocities m/s and rad/s.
+"""
 
 from dataclasses import dataclass
+
+from amr_description.clock import NANOSECONDS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandSeen:
+    """A command."""
+
+    received: int
+    """Of the system clock of the machine that listens."""
+    sequence: int = 0
+    """The number that its publisher gave it; 0: not known."""
+    age: int | None = None
+    """
+    The present minus its stamp, at reception, by ``/clock`` where there is one; None: it has no
+    stamp, or 0, which counts as the time of arrival.
+    """
+    is_simulated: bool = False
+    """``age`` is by ``/clock``."""
+    linear: tuple[float, float] = (0.0, 0.0)
+    """Along x and y."""
+    angular: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandTopic:
+    """A topic of commands, and what came on it."""
+
+    name: str
+    publishers: tuple[str, ...] = ()
+    """Nodes, each once."""
+    subscriptions: tuple[str, ...] = ()
+    seen: tuple[CommandSeen, ...] = ()
+    """In the order of reception."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drive:
+    """A controller that takes commands, by its parameters."""
+
+    node: str
+    topics: tuple[str, ...]
+    """Of commands, to which it subscribes."""
+    timeout: float | None = None
+    """s after which a command ends; 0: never; None: not known."""
+    timeout_parameter: str = 'cmd_vel_timeout'
+    limits: tuple[tuple[str, float, float], ...] = ()
+    """Of components: the prefix of the parameters (``linear.x``), least, most."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StopLock:
+    """A lock that holds robots at rest, as ``emergency_stop``."""
+
+    topic: str
+    holders: tuple[str, ...]
+    """The nodes that publish it."""
+    is_locked: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Commands:
-    """Velocity commands, and who listens to them."""
+    """All that was seen of commands."""
+
+    topics: tuple[CommandTopic, ...] = ()
+    drives: tuple[Drive, ...] = ()
+    locks: tuple[StopLock, ...] = ()
+    seconds: float = 0.0
+    """How long was listened, s."""
+
+    def drives_on(self, topic: str) -> tuple[Drive, ...]:
+        """Return the drives that subscribe to a topic."""
+        return tuple(each for each in self.drives if topic in each.topics)
+
+
+def series_of(seen: tuple[CommandSeen, ...]) -> list[list[CommandSeen]]:
+    """
+    Return the commands of each publisher, by the numbers that publishers give their messages.
+
+    Two that publish to one topic each count for themselves, so that their numbers are far apart,
+    or repeat; a number that was lost on the way does not begin a new series.
+    """
+    series: list[list[CommandSeen]] = []
+    for command in seen:
+        for each in series:
+            if 0 < command.sequence - each[-1].sequence <= _LARGEST_GAP:
+                each.append(command)
+                break
+        else:
+            series.append([command])
+    return series
+
+
+def median_period(seen: list[CommandSeen]) -> float:
+    """Return the median time between two commands or more, s."""
+    times = [each.received for each in seen]
+    gaps = sorted(later - earlier for earlier, later in zip(times, times[1:], strict=False))
+    return gaps[len(gaps) // 2] / NANOSECONDS
+
+
+_LARGEST_GAP = 5

@@ -7,7 +7,10 @@ The rules, a module for each family. Each has its functions in ``RULES``, root c
 ``machine.py``       system, Python, memory, disks, network
 ``environment.py``   environment variables
 ``processes.py``     processes of this host
-``graph.py``         nodes, topics, types, QoS
+``graph.py``         nodes; its table has those of the next three too
+``types.py``         … types of topics
+``qos.py``           … QoS of topics
+``topic_names.py``   … names of topics
 ``clock.py``         simulated time
 ``commands.py``      velocity commands
 ``transforms.py``    frames
@@ -15,5 +18,6 @@ The rules, a module for each family. Each has its functions in ``RULES``, root c
 ``controllers.py``   controller managers, controllers, hardware
 ``sensors.py``       scans, pictures, odometry
 ``navigation.py``    what Nav2 and slam_toolbox demand
+``wording.py``       nodes, types and times in the text of findings
 ===================  =============================================================================
 """

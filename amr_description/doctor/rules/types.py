@@ -1,0 +1,104 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Types of the publishers and subscriptions of one topic: DDS connects only equal ones."""
+
+from collections.abc import Iterator, Sequence
+
+from amr_description.doctor.findings import Finding, Severity
+from amr_description.doctor.observations import Observations
+from amr_description.doctor.observations.graph import (
+    Endpoint,
+    STAMPED_TWIST,
+    Topic,
+    VELOCITY_TYPES,
+)
+from amr_description.doctor.rules.wording import names_of, short_type
+
+
+def mismatched_types(seen: Observations) -> Iterator[Finding]:
+    """Publishers and subscriptions of one topic with other types: nothing arrives."""
+    for topic in seen.graph.topics if seen.graph else ():
+        deaf, mute = _deaf(topic), _mute(topic)
+        if not deaf and not mute:
+            continue
+        subscriptions = deaf or [
+            e for e in topic.subscriptions if e.type_name != mute[0].type_name
+        ]
+        publishers = mute or [e for e in topic.publishers if e.type_name != deaf[0].type_name]
+        offered, wanted = publishers[0].type_name, subscriptions[0].type_name
+        yield Finding(
+            severity=Severity.ERROR,
+            rule='mismatched_types',
+            what=f'{names_of(publishers)} publishes {short_type(offered, wanted)} on '
+            f'{topic.name}, but {names_of(subscriptions)} subscribes to '
+            f'{short_type(wanted, offered)}',
+            why='DDS connects equal types only: nothing arrives'
+            + (', and the robot does not move' if offered in VELOCITY_TYPES else ''),
+            fix=_type_fix(topic.name, publishers, offered, wanted),
+        )
+
+
+def mismatched_definitions(seen: Observations) -> Iterator[Finding]:
+    """One type by name, built of two definitions: a workspace was not built, or not sourced."""
+    for topic in seen.graph.topics if seen.graph else ():
+        ends = [e for e in (*topic.publishers, *topic.subscriptions) if e.type_hash]
+        for name in dict.fromkeys(each.type_name for each in ends):
+            of_type = [each for each in ends if each.type_name == name]
+            hashes = dict.fromkeys(each.type_hash for each in of_type)
+            if len(hashes) < 2:
+                continue
+            parts = [[e for e in of_type if e.type_hash == each] for each in hashes]
+            yield Finding(
+                severity=Severity.ERROR,
+                rule='mismatched_definitions',
+                what=f'{name} on {topic.name} is of one definition in {names_of(parts[0])}, and '
+                f'of another in {names_of(parts[1])}',
+                why='fields are read at the wrong places, or nothing arrives at all',
+                fix=f'build {name.partition("/")[0]} from the same sources on both sides (colcon '
+                f'build --packages-up-to {name.partition("/")[0]}), source install/setup.bash, '
+                'and start both again',
+            )
+
+
+def _deaf(topic: Topic) -> list[Endpoint]:
+    """Return the subscriptions whose node gets nothing, as all publish another type."""
+    if not topic.publishers:
+        return []
+    offered = {each.type_name for each in topic.publishers}
+    served = {each.node for each in topic.subscriptions if each.type_name in offered}
+    return [
+        each
+        for each in topic.subscriptions
+        # One with a subscription of each type follows its publishers.
+        if each.type_name not in offered and each.node not in served
+    ]
+
+
+def _mute(topic: Topic) -> list[Endpoint]:
+    """Return the publishers that nobody hears, as all subscribe to another type."""
+    if not topic.subscriptions:
+        return []
+    wanted = {each.type_name for each in topic.subscriptions}
+    heard = {each.node for each in topic.publishers if each.type_name in wanted}
+    return [
+        each
+        for each in topic.publishers
+        if each.type_name not in wanted and each.node not in heard
+    ]
+
+
+def _type_fix(topic: str, publishers: Sequence[Endpoint], offered: str, wanted: str) -> str:
+    if {offered, wanted} != {*VELOCITY_TYPES}:
+        return f'use {wanted} in {names_of(publishers)}, or remap it: -r {topic}:={topic}_2'
+    is_stamped = wanted == STAMPED_TWIST
+    value = str(is_stamped).lower()
+    command = f"ros2 topic pub -r 10 {topic} {wanted} '{_forward(is_stamped)}'"
+    return (
+        f'publish {short_type(wanted, offered)}: teleop_twist_keyboard -p stamped:={value}, '
+        f'Nav2 enable_stamped_cmd_vel: {value}, {command}'
+    )
+
+
+def _forward(is_stamped: bool) -> str:
+    twist = '{linear: {x: 0.2}}'
+    return f'{{twist: {twist}}}' if is_stamped else twist

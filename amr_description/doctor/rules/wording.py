@@ -1,0 +1,39 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes, types and times in the text of findings."""
+
+from collections.abc import Iterable, Sequence
+
+from amr_description.clock import NANOSECONDS
+from amr_description.doctor.observations.graph import Endpoint
+
+_SHOWN = 4
+_PROGRAM = '_ros2cli'
+
+
+def names_of(endpoints: Iterable[Endpoint]) -> str:
+    """Return the nodes of endpoints, each once, the first few."""
+    return listed([each.node for each in endpoints])
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names, each once, the first few; a hidden node of the ``ros2`` command as that."""
+    found = list(dict.fromkeys(named(name) for name in names))
+    more = f' and {len(found) - _SHOWN} more' if len(found) > _SHOWN else ''
+    return ', '.join(found[:_SHOWN]) + more
+
+
+def named(node: str) -> str:
+    """Return the name of a node."""
+    return f'ros2 ({node})' if node.rpartition('/')[2].startswith(_PROGRAM) else node
+
+
+def short_type(name: str, other: str) -> str:
+    """Return a type without its package, if that tells it from another one."""
+    short = name.rpartition('/')[2]
+    return name if short == other.rpartition('/')[2] else short
+
+
+def seconds(time: float) -> str:
+    """Return a time, ns, as text."""
+    return f'{time / NANOSECONDS:.3g} s'
