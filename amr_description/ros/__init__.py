@@ -26,6 +26,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``endpoints.py``          publishers and subscriptions of the graph, by their nodes
 ``local_participants.py`` DDS participants on this host, from the UDP ports in use
 ``node_lists.py``         what each participant says of its nodes and their endpoints
+``publisher_gids.py``     which publisher a message is of
 ``type_mismatch.py``      endpoints of one topic with different types; Twist or TwistStamped
 
 ``standing_clock.py``     the clock of an action server, which wakes nobody between goals
