@@ -1,3 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Asks and listens to the ROS graph: ``collector.py``, and a module for each probe."""
+"""
+Asks and listens to the ROS graph.
+
+===================  =============================================================================
+``collector.py``     all sections within one window of time
+``heard.py``         messages with their publishers, taken without callbacks
+``questions.py``     services that change nothing, and parameters
+``description.py``   ``robot_description``
+``controllers.py``   controller managers, and what they log
+``transforms.py``    ``/tf`` and ``/tf_static``
+``sensors.py``       sensors, joint states, odometry beside the truth
+``navigation.py``    what Nav2 and slam_toolbox demand
+===================  =============================================================================
+"""

@@ -13,6 +13,11 @@ from typing import Any, Protocol
 from rclpy.node import Node
 
 from amr_description.doctor.observations import Observations
+from amr_description.doctor.ros.controllers import ControllersProbe
+from amr_description.doctor.ros.description import DescriptionProbe
+from amr_description.doctor.ros.navigation import NavigationProbe
+from amr_description.doctor.ros.sensors import SensorsProbe
+from amr_description.doctor.ros.transforms import TransformsProbe
 
 WINDOW = 3.0
 """s: longest time in which messages and answers are waited for."""
@@ -35,7 +40,13 @@ class Probe(Protocol):
 type Spin = Callable[[Callable[[], bool], float], bool]
 """Runs the callbacks of the node until a function returns True, at most for so many s."""
 
-PROBES: dict[str, Callable[[], Probe]] = {}
+PROBES: dict[str, Callable[[], Probe]] = {
+    'description': DescriptionProbe,
+    'controllers': ControllersProbe,
+    'transforms': TransformsProbe,
+    'sensors': SensorsProbe,
+    'navigation': NavigationProbe,
+}
 """Fields of Observations, and what makes the probe of each."""
 
 
