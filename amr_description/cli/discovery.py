@@ -23,7 +23,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.cli.session import Session
 from amr_description.ros.endpoints import endpoint_node
-from amr_description.ros.local_participants import local_participants
+from amr_description.ros.local_participants import local_participants, processes_of
 from amr_description.ros.node_lists import (
     NodeList,
     NodeLists,
@@ -45,7 +45,6 @@ _POLL = 0.01  # s
 
 _PARAMETER_EVENTS = '/parameter_events'
 _HOST = 4  # bytes of a gid: vendor and host
-_PROCESS = slice(4, 6)  # bytes of a gid: of the process that made the participant (Fast DDS 2.14)
 
 
 def wait_for_discovery(
@@ -191,9 +190,7 @@ class Quiet:
 
 def has_process(prefix: bytes) -> bool:
     """Return whether a process is running that may have made this participant of this host."""
-    ends = int.from_bytes(prefix[_PROCESS], 'little')
-    pids = (int(name) for name in os.listdir('/proc') if name.isdecimal())
-    return any(pid & 0xFFFF == ends for pid in pids)
+    return bool(processes_of(prefix))
 
 
 def _is_this_host_all() -> bool:

@@ -13,8 +13,11 @@ from typing import Any, Protocol
 from rclpy.node import Node
 
 from amr_description.doctor.observations import Observations
+from amr_description.doctor.ros.clock import ClockProbe
+from amr_description.doctor.ros.commands import CommandProbe
 from amr_description.doctor.ros.controllers import ControllersProbe
 from amr_description.doctor.ros.description import DescriptionProbe
+from amr_description.doctor.ros.graph import GraphProbe
 from amr_description.doctor.ros.navigation import NavigationProbe
 from amr_description.doctor.ros.sensors import SensorsProbe
 from amr_description.doctor.ros.transforms import TransformsProbe
@@ -41,6 +44,9 @@ type Spin = Callable[[Callable[[], bool], float], bool]
 """Runs the callbacks of the node until a function returns True, at most for so many s."""
 
 PROBES: dict[str, Callable[[], Probe]] = {
+    'graph': GraphProbe,
+    'clock': ClockProbe,
+    'commands': CommandProbe,
     'description': DescriptionProbe,
     'controllers': ControllersProbe,
     'transforms': TransformsProbe,

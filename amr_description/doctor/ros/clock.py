@@ -1,0 +1,234 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``/clock``, who can let it go on, and the stamps of messages that are small."""
+
+import re
+import struct
+import time
+
+from rcl_interfaces.msg import Log
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+
+from amr_description.clock import NANOSECONDS
+from amr_description.doctor.observations.clock import Clock, StampSeen, TimeSource
+from amr_description.doctor.ros.shared import CLOCK_TOPIC, Question, received, shared_of
+from amr_description.doctor.rules.clock import LEAST_FACTOR_SHARE
+from amr_description.errors import AmrError
+from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.message_types import message_type
+
+LISTEN = 1.0
+"""s for which ``/clock`` is listened to."""
+
+_SILENCE = 1.5
+"""s without a message on ``/clock``, after which it is silent."""
+_STAMP_PATIENCE = 1.5
+"""s for a first message on a topic; a broken one may never come."""
+_REPORT_PATIENCE = 0.5
+_REPORT_AGE = 30 * NANOSECONDS
+_REPORT = re.compile(r'real time is not kept: .*?(Of the time goes to .*?)(?:\. Results|$)')
+_ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_BEST_EFFORT = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+_FACTOR = 'real_time_factor'
+_BUCKET = 60 * NANOSECONDS
+_MOST_TOPICS = 30
+_STAMP = 4
+"""Bytes before the first field of a message: its encapsulation (DDSI-RTPS 2.5, 10)."""
+_TRANSFORM_STAMP = 8
+"""… before the stamp of the first of several transforms: their number too."""
+_HEADERS = {
+    'geometry_msgs/msg/PoseWithCovarianceStamped': _STAMP,
+    'nav_msgs/msg/Odometry': _STAMP,
+    'sensor_msgs/msg/Imu': _STAMP,
+    'sensor_msgs/msg/JointState': _STAMP,
+    'sensor_msgs/msg/LaserScan': _STAMP,
+    'tf2_msgs/msg/TFMessage': _TRANSFORM_STAMP,
+}
+"""Messages that begin with a stamp; large ones, as pictures, are left out."""
+_STATIC = '/tf_static'
+_RESUMES = {
+    'simulation_interfaces/srv/SetSimulationState': '"{state: {state: 1}}"',
+    'rosbag2_interfaces/srv/Resume': '"{}"',
+}
+"""The services that let time go on, and their requests."""
+
+
+class ClockProbe:
+    """Observes time."""
+
+    def begin(self, node: Node) -> None:
+        """Listen to ``/clock``, and to topics whose messages are stamped."""
+        self._node = node
+        self._shared = shared_of(node)
+        self._began = time.monotonic()
+        self._publishers = tuple(
+            endpoint_node(each) or 'a node'
+            for each in node.get_publishers_info_by_topic(CLOCK_TOPIC)
+        )
+        if self._publishers:
+            self._shared.listen()
+        self._subscriptions: list[Subscription] = []
+        self._stamps: dict[str, dict[int, tuple[int, int]]] = {}
+        self._listen_to_stamps()
+        self._resumes = self._find_sources()
+        self._factors: dict[str, Question] = {
+            name: self._shared.ask(name, [_FACTOR]) for name, _ in self._resumes
+        }
+        self._reports: dict[str, str] = {}
+        self._asked_reports: float | None = None
+
+    @property
+    def is_done(self) -> bool:
+        """Whether enough was heard."""
+        now = time.monotonic()
+        waited = now - self._began
+        has_answers = all([each.is_answered() for each in self._factors.values()])
+        has_stamps = all(self._stamps.values()) or waited > _STAMP_PATIENCE
+        if not self._publishers:
+            return has_stamps
+        listened = self._shared.seconds
+        is_heard = listened >= LISTEN if self._shared.ticks else listened >= _SILENCE
+        if not (has_answers and has_stamps and is_heard):
+            return False
+        return self._has_reports(now)
+
+    def observe(self) -> Clock:
+        """Return what was heard."""
+        shared = self._shared
+        stamps = tuple(
+            StampSeen(
+                topic=topic,
+                publishers=self._publishers_of(topic),
+                stamp=stamp,
+                received=arrival,
+                time=shared.time_at(arrival) if self._publishers else None,
+            )
+            for topic, found in self._stamps.items()
+            for stamp, arrival in found.values()
+            if not self._publishers or shared.ticks
+        )
+        clock = Clock(
+            publishers=self._publishers,
+            ticks=tuple(shared.ticks),
+            seconds=shared.seconds,
+            sources=tuple(self._source(name, resume) for name, resume in self._resumes),
+            stamps=stamps,
+        )
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        shared.release()
+        return clock
+
+    # --- sources ------------------------------------------------------------------------------
+
+    def _find_sources(self) -> list[tuple[str, str]]:
+        """Return the nodes that can let time go on, and the commands that make them do so."""
+        found = []
+        for service, types in self._node.get_service_names_and_types():
+            node = service.rpartition('/')[0]
+            for kind, request in _RESUMES.items():
+                if kind in types and node in self._publishers:
+                    found.append((node, f'ros2 service call {service} {kind} {request}'))
+        return found
+
+    def _source(self, name: str, resume: str) -> TimeSource:
+        value = (self._factors[name].values or {}).get(_FACTOR)
+        is_number = isinstance(value, int | float)
+        return TimeSource(
+            node=name,
+            resume=resume,
+            asked_factor=float(value) if isinstance(value, int | float) else None,
+            speed_parameter=_FACTOR if is_number else '',
+            report=self._reports.get(name, ''),
+        )
+
+    def _has_reports(self, now: float) -> bool:
+        """Ask what the simulator has logged, if it is slow; return whether that has come."""
+        if self._asked_reports is not None:
+            return now - self._asked_reports > _REPORT_PATIENCE
+        clock = Clock(ticks=tuple(self._shared.ticks))
+        asked = [
+            value
+            for each in self._factors.values()
+            if isinstance(value := (each.values or {}).get(_FACTOR), int | float)
+        ]
+        factor = clock.factor
+        if factor is None or not asked or factor >= LEAST_FACTOR_SHARE * max(asked):
+            return True
+        self._asked_reports = now
+        self._subscriptions.append(
+            self._node.create_subscription(Log, '/rosout', self._on_log, _ROSOUT)
+        )
+        return False
+
+    def _on_log(self, message: Log, info: dict[str, int]) -> None:
+        # What was logged long ago comes too, as the topic is transient local.
+        is_recent = received(info) - info.get('source_timestamp', 0) < _REPORT_AGE
+        if is_recent and (found := _REPORT.search(message.msg)):
+            text = found[1]
+            self._reports[f'/{message.name.replace(".", "/")}'] = text[0].lower() + text[1:]
+
+    # --- stamps -------------------------------------------------------------------------------
+
+    def _listen_to_stamps(self) -> None:
+        node = self._node
+        for name, types in sorted(node.get_topic_names_and_types()):
+            kinds = [kind for kind in types if kind in _HEADERS]
+            if name == _STATIC or len(types) != 1 or not kinds or not node.count_publishers(name):
+                continue
+            if len(self._stamps) >= _MOST_TOPICS:
+                return
+            self._listen_to(name, kinds[0])
+
+    def _listen_to(self, topic: str, kind: str) -> None:
+        found = self._stamps[topic] = {}
+        offset = _HEADERS[kind]
+
+        def on_message(data: bytes, info: dict[str, int]) -> None:
+            stamp = stamp_in(data, offset)
+            if stamp is not None:
+                found[stamp // _BUCKET] = stamp, received(info)
+
+        try:
+            subscription = self._node.create_subscription(
+                message_type(kind), topic, on_message, _BEST_EFFORT, raw=True
+            )
+        except (AmrError, RuntimeError):  # the type is not installed; another one is used here
+            del self._stamps[topic]
+            return
+        self._subscriptions.append(subscription)
+
+    def _publishers_of(self, topic: str) -> tuple[str, ...]:
+        """Return who publishes a topic; if some do not follow ``/clock``, those alone."""
+        node = self._node
+        found = dict.fromkeys(
+            endpoint_node(each) or 'a node' for each in node.get_publishers_info_by_topic(topic)
+        )
+        followers = {
+            endpoint_node(each) for each in node.get_subscriptions_info_by_topic(CLOCK_TOPIC)
+        }
+        others = [each for each in found if each not in followers | {*self._publishers}]
+        return tuple(others or found)
+
+
+def stamp_in(data: bytes, offset: int) -> int | None:
+    """
+    Return the stamp in a serialized message, ns.
+
+    Args:
+        data: CDR, with its encapsulation.
+        offset: of the stamp; behind a number of elements, if there are 4 bytes more.
+
+    Returns:
+        None: the message is too short, or a sequence without elements.
+    """
+    order = '<' if len(data) > 1 and data[1] & 1 else '>'
+    try:
+        if offset == _TRANSFORM_STAMP and not struct.unpack_from(f'{order}I', data, _STAMP)[0]:
+            return None
+        seconds, nanoseconds = struct.unpack_from(f'{order}iI', data, offset)
+    except struct.error:
+        return None
+    return int(seconds) * NANOSECONDS + int(nanoseconds)

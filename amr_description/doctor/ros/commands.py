@@ -1,0 +1,266 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Velocity commands, the parameters of the drives that take them, and locks."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+import math
+import time
+from typing import Any
+
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from std_msgs.msg import Bool
+
+from amr_description.doctor.observations.commands import (
+    Commands,
+    CommandSeen,
+    CommandTopic,
+    Drive,
+    StopLock,
+)
+from amr_description.doctor.observations.graph import STAMPED_TWIST, TWIST, VELOCITY_TYPES
+from amr_description.doctor.ros.shared import (
+    CLOCK_TOPIC,
+    GET_PARAMETERS,
+    Question,
+    received,
+    shared_of,
+)
+from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.messages import nanoseconds
+
+LISTEN = 2.5
+"""s for which commands are awaited: three of once a second."""
+
+_ENOUGH, _SHORTEST = 12, 1.0
+"""So many commands on a topic, within s, are enough to tell how often they come, and of how
+many publishers they are."""
+_LOCK_PATIENCE = 0.7
+"""s until the last message of a lock has come; of a lock that is volatile none may."""
+_MOST = 2000
+_LOCK, _BOOL = 'emergency_stop', 'std_msgs/msg/Bool'
+_QOS = QoSProfile(depth=20, reliability=ReliabilityPolicy.BEST_EFFORT)
+_LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_TYPES: dict[str, type] = {TWIST: Twist, STAMPED_TWIST: TwistStamped}
+_TIMEOUTS = ('cmd_vel_timeout', 'reference_timeout')
+_REFERENCE = '/reference'
+"""End of the topics to which ``reference_timeout`` applies."""
+_COMPONENTS = ('linear.x', 'linear.y', 'angular.z')
+_MILLISECOND = 1e-3
+
+
+class CommandProbe:
+    """Observes commands."""
+
+    def begin(self, node: Node) -> None:
+        """Listen to the topics of commands that are published, and ask who subscribes."""
+        self._node = node
+        self._shared = shared_of(node)
+        self._began = time.monotonic()
+        self._is_simulated = node.count_publishers(CLOCK_TOPIC) > 0
+        self._topics: list[_Topic] = []
+        self._locks: list[_Lock] = []
+        self._subscriptions: list[Subscription] = []
+        for name, types in sorted(node.get_topic_names_and_types()):
+            if {*types} & {*VELOCITY_TYPES}:
+                self._add_topic(name)
+            elif name.rpartition('/')[2] == _LOCK and _BOOL in types:
+                self._add_lock(name)
+        if self._is_simulated and any(each.publishers for each in self._topics):
+            self._shared.listen()
+        self._questions = self._ask()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether enough was heard."""
+        waited = time.monotonic() - self._began
+        answers = [q.is_answered() for found in self._questions.values() for q in found.values()]
+        if not all(answers) and waited < LISTEN:
+            return False
+        if any(each.value is None for each in self._locks) and waited < _LOCK_PATIENCE:
+            return False
+        return waited >= LISTEN or all(
+            not each.publishers or (len(each.seen) >= _ENOUGH and waited >= _SHORTEST)
+            for each in self._topics
+        )
+
+    def observe(self) -> Commands:
+        """Return what was heard."""
+        topics = tuple(
+            CommandTopic(
+                name=each.name,
+                publishers=each.publishers,
+                subscriptions=each.subscriptions,
+                seen=tuple(self._command(*one) for one in each.seen),
+            )
+            for each in self._topics
+        )
+        commands = Commands(
+            topics=topics,
+            drives=tuple(self._drives()),
+            locks=tuple(
+                StopLock(topic=each.name, holders=each.holders, is_locked=each.value is True)
+                for each in self._locks
+            ),
+            seconds=time.monotonic() - self._began,
+        )
+        for subscription in self._subscriptions:
+            self._node.destroy_subscription(subscription)
+        self._shared.release()
+        return commands
+
+    # --- topics -------------------------------------------------------------------------------
+
+    def _add_topic(self, name: str) -> None:
+        """Listen to a topic, with the type that is both published and subscribed to, if any is."""
+        node = self._node
+        publishers = node.get_publishers_info_by_topic(name)
+        subscriptions = node.get_subscriptions_info_by_topic(name)
+        found = _Topic(name, _names(publishers), _names(subscriptions))
+        self._topics.append(found)
+        wanted = {each.topic_type for each in subscriptions}
+        offered = sorted(
+            {each.topic_type for each in publishers} & {*VELOCITY_TYPES},
+            key=lambda kind: kind not in wanted,
+        )
+        if not offered:
+            return
+
+        def on_command(message: Any, info: dict[str, int]) -> None:
+            if len(found.seen) < _MOST:
+                number = info.get('publication_sequence_number') or 0
+                found.seen.append((message, received(info), number))
+
+        self._subscribe(_TYPES[offered[0]], name, on_command, _QOS)
+
+    def _add_lock(self, name: str) -> None:
+        publishers = self._node.get_publishers_info_by_topic(name)
+        if not publishers:
+            return
+        lock = _Lock(name, _names(publishers))
+        self._locks.append(lock)
+
+        def on_lock(message: Bool) -> None:
+            lock.value = message.data
+
+        are_latched = all(
+            each.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for each in publishers
+        )
+        self._subscribe(Bool, name, on_lock, _LATCHED if are_latched else _QOS)
+
+    def _subscribe(
+        self, kind: type, topic: str, callback: Callable[..., None], qos: QoSProfile
+    ) -> None:
+        try:
+            subscription = self._node.create_subscription(kind, topic, callback, qos)
+        except RuntimeError:  # another type of it is used in this process
+            return
+        self._subscriptions.append(subscription)
+
+    def _command(self, message: Any, arrival: int, number: int) -> CommandSeen:
+        age, twist = None, message
+        if isinstance(message, TwistStamped):
+            twist = message.twist
+            stamp = nanoseconds(message.header.stamp)
+            present = self._shared.time_at(arrival) if self._is_simulated else arrival
+            age = present - stamp if stamp and present is not None else None
+        return CommandSeen(
+            received=arrival,
+            sequence=number,
+            age=age,
+            is_simulated=self._is_simulated,
+            linear=(twist.linear.x, twist.linear.y),
+            angular=twist.angular.z,
+        )
+
+    # --- drives -------------------------------------------------------------------------------
+
+    def _ask(self) -> dict[str, dict[str, Question]]:
+        """Ask who subscribes to commands; a parameter that is unknown would spoil the others."""
+        services = {name for name, _ in self._node.get_service_names_and_types()}
+        nodes = dict.fromkeys(node for each in self._topics for node in each.subscriptions)
+        own = self._node.get_fully_qualified_name()
+        return {
+            node: {
+                **{name: self._shared.ask(node, [name]) for name in _TIMEOUTS},
+                **{name: self._shared.ask(node, _limits_of(name)) for name in _COMPONENTS},
+                **{_switch(name): self._shared.ask(node, [_switch(name)]) for name in _COMPONENTS},
+            }
+            for node in nodes
+            if f'{node}{GET_PARAMETERS}' in services and node != own
+        }
+
+    def _drives(self) -> Iterable[Drive]:
+        """Yield the nodes that have a time-out or limits of commands."""
+        for node, questions in self._questions.items():
+            topics = tuple(each.name for each in self._topics if node in each.subscriptions)
+            values: dict[str, object] = {}
+            for question in questions.values():
+                values |= question.values or {}
+            drive = drive_of(node, topics, values)
+            if drive is not None:
+                yield drive
+
+
+@dataclass(slots=True)
+class _Topic:
+    name: str
+    publishers: tuple[str, ...]
+    subscriptions: tuple[str, ...]
+    seen: list[tuple[Any, int, int]] = field(default_factory=list)
+    """Messages, when they were received, and their numbers."""
+
+
+@dataclass(slots=True)
+class _Lock:
+    name: str
+    holders: tuple[str, ...]
+    value: bool | None = None
+
+
+def drive_of(node: str, topics: tuple[str, ...], values: dict[str, object]) -> Drive | None:
+    """Return the drive that a node is, by its parameters; None: it is none."""
+    name = next((each for each in _TIMEOUTS if each in values), '')
+    timeout = values.get(name)
+    if name == 'reference_timeout' and not any(each.endswith(_REFERENCE) for each in topics):
+        name, timeout = '', None  # as of Gazebo's plugins, which have none
+    limits = []
+    for component in _COMPONENTS:
+        most, least = (_number(values, key) for key in _limits_of(component))
+        has_limits = values.get(_switch(component), True) is not False
+        if has_limits and not math.isnan(most):
+            limits.append((component, -most if math.isnan(least) else least, most))
+    if not isinstance(timeout, int | float) and not limits:
+        return None
+    seconds: float | None = None
+    if isinstance(timeout, int | float):
+        # That of tricycle_controller is in milliseconds, and an integer.
+        seconds = timeout * _MILLISECOND if isinstance(timeout, int) else timeout
+    return Drive(
+        node=node,
+        topics=topics,
+        timeout=seconds,
+        timeout_parameter=name or _TIMEOUTS[0],
+        limits=tuple(limits),
+    )
+
+
+def _limits_of(component: str) -> tuple[str, str]:
+    return f'{component}.max_velocity', f'{component}.min_velocity'
+
+
+def _switch(component: str) -> str:
+    """Return the parameter, deprecated by now, that switches the limits off."""
+    return f'{component}.has_velocity_limits'
+
+
+def _number(values: dict[str, object], name: str) -> float:
+    value = values.get(name)
+    return float(value) if isinstance(value, int | float) else math.nan
+
+
+def _names(found: Iterable[Any]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(endpoint_node(each) or 'a node' for each in found))

@@ -1,0 +1,146 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What several probes of one node have in common, so that it is heard and asked only once.
+
+``/clock`` is subscribed to by best effort, and every node has one client for its parameters.
+"""
+
+from bisect import bisect_right
+from collections.abc import Iterable, Sequence
+import time
+from weakref import WeakKeyDictionary
+
+from rcl_interfaces.srv import GetParameters
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+from rclpy.task import Future
+from rosgraph_msgs.msg import Clock
+
+from amr_description.doctor.observations.clock import ClockTick
+from amr_description.ros.messages import nanoseconds
+
+CLOCK_TOPIC = '/clock'
+GET_PARAMETERS = '/get_parameters'
+
+_CLOCK_QOS = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+_AGAIN = 0.5
+"""s until a question is asked again: a server may throw away its first response to a client that
+it has not discovered yet."""
+_MOST_TICKS = 20_000
+_SHARED: 'WeakKeyDictionary[Node, Shared]' = WeakKeyDictionary()
+
+
+class Question:
+    """Some parameters of a node, which are asked for until it answers."""
+
+    def __init__(self, client: Client, names: Sequence[str]) -> None:
+        self._client = client
+        self._names = tuple(names)
+        self._futures: list[Future] = []
+        self._last = -_AGAIN
+        self.asked: float | None = None
+        """When it was asked first, s of the monotonic clock; None: its server is not reached."""
+        self.looks = 0
+        """How often it was looked for an answer since."""
+        self.values: dict[str, object] | None = None
+        """The answer: those that the node has."""
+
+    def is_answered(self) -> bool:
+        """Take an answer, or ask again; return whether there is one."""
+        if self.values is not None:
+            return True
+        for future in self._futures:
+            if future.done() and (response := future.result()) is not None:
+                found = zip(self._names, response.values, strict=False)
+                values = {name: parameter_value_to_python(value) for name, value in found}
+                self.values = {name: each for name, each in values.items() if each is not None}
+                return True
+        now = time.monotonic()
+        if now - self._last >= _AGAIN and self._client.service_is_ready():
+            self._last = now
+            self.asked = self.asked or now
+            request = GetParameters.Request(names=self._names)
+            self._futures.append(self._client.call_async(request))
+        self.looks += self.asked is not None
+        return False
+
+
+class Shared:
+    """Made by :func:`shared_of`."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._clients: dict[str, Client] = {}
+        self._questions: dict[tuple[str, tuple[str, ...]], Question] = {}
+        self._clock: Subscription | None = None
+        self._matched: float | None = None
+        self._users = 0
+        self.ticks: list[ClockTick] = []
+        """What came on ``/clock`` since :meth:`listen`."""
+
+    def ask(self, node: str, names: Iterable[str]) -> Question:
+        """Return a question to a node, by its full name; it is asked by being looked at."""
+        key = node, tuple(names)
+        if key not in self._questions:
+            if node not in self._clients:
+                service = f'{node}{GET_PARAMETERS}'
+                self._clients[node] = self._node.create_client(GetParameters, service)
+            self._questions[key] = Question(self._clients[node], key[1])
+        return self._questions[key]
+
+    def listen(self) -> None:
+        """Subscribe to ``/clock``, once."""
+        if self._clock is None:
+            self._clock = self._node.create_subscription(
+                Clock, CLOCK_TOPIC, self._on_clock, _CLOCK_QOS
+            )
+
+    @property
+    def seconds(self) -> float:
+        """How long ``/clock`` was listened to since its publisher was matched, s."""
+        if self._clock is None or not self._clock.get_publisher_count():
+            return 0.0
+        self._matched = self._matched or time.monotonic()
+        return time.monotonic() - self._matched
+
+    def time_at(self, received: int) -> int | None:
+        """Return the time of ``/clock`` at a moment of reception, ns; None: not known."""
+        if not self.ticks:
+            return None
+        place = bisect_right(self.ticks, received, key=lambda tick: tick.received)
+        return self.ticks[max(0, place - 1)].time
+
+    def take(self) -> None:
+        """Count a probe that uses this."""
+        self._users += 1
+
+    def release(self) -> None:
+        """Count a probe that uses it no more; after the last one nothing is heard or asked."""
+        self._users -= 1
+        if self._users:
+            return
+        for client in self._clients.values():
+            self._node.destroy_client(client)
+        if self._clock is not None:
+            self._node.destroy_subscription(self._clock)
+        _SHARED.pop(self._node, None)
+
+    def _on_clock(self, message: Clock, info: dict[str, int]) -> None:
+        if len(self.ticks) < _MOST_TICKS:
+            self.ticks.append(ClockTick(nanoseconds(message.clock), received(info)))
+
+
+def shared_of(node: Node) -> Shared:
+    """Return what the probes of a node share; each releases it when it has observed."""
+    shared = _SHARED.setdefault(node, Shared(node))
+    shared.take()
+    return shared
+
+
+def received(info: dict[str, int]) -> int:
+    """Return when DDS received a message, not when this process had time for it."""
+    return info.get('received_timestamp') or time.time_ns()
