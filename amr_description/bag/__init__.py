@@ -10,6 +10,7 @@ nanoseconds.
 ``storage.py``         a topic and a message of a bag
 ``qos_text.py``        QoS profiles as YAML, as it is in bags and in files of overrides
 ``metadata.py``        ``metadata.yaml``
+``yaml_text.py``       YAML of bags, also what nobody can have meant
 ``schemas.py``         the text of a message type with all that it contains, for those who read it
 ``mcap_writer.py``     ``BagWriter``: a folder of MCAP files
 ``mcap_options.py``    how they are written: presets, and files of options

@@ -42,8 +42,12 @@ def open_file(path: Path) -> IO[bytes]:
             return path.open('rb')
         with path.open('rb') as source:
             unpacked = tempfile.TemporaryFile()  # noqa: SIM115 - the caller closes it
-            reader = zstandard.ZstdDecompressor().stream_reader(source)
-            shutil.copyfileobj(reader, unpacked)
+            try:
+                reader = zstandard.ZstdDecompressor().stream_reader(source)
+                shutil.copyfileobj(reader, unpacked)
+            except BaseException:
+                unpacked.close()
+                raise
     except (OSError, zstandard.ZstdError) as error:
         raise BagError(f'cannot read {path}: {error}') from error
     unpacked.seek(0)

@@ -8,6 +8,7 @@ give the same: parts of records, each with the times between which its messages 
 """
 
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 import heapq
 from io import BytesIO
@@ -27,13 +28,18 @@ from amr_description.bag import compression, metadata, qos_text
 from amr_description.bag.metadata import BagMetadata, FileInformation, TopicInformation
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
+from amr_description.text import shorten
 
 MAGIC = b'\x89MCAP0\r\n'
 _HEAD = struct.Struct('<BQ')  # opcode and length of a record
 _MESSAGE = struct.Struct('<HIQQ')  # channel, sequence, log_time, publish_time
 _CHUNK_TIMES = struct.Struct('<QQ')
 _UNCHUNKED_PART = 1 << 20  # bytes; of files without chunks
-_FAULTS = (McapError, struct.error, EOFError, UnicodeDecodeError, zstandard.ZstdError, KeyError)
+# Of what reads bytes that anybody may have written.
+_FAULTS = (
+    McapError, struct.error, zstandard.ZstdError, EOFError, LookupError, MemoryError,
+    OverflowError, RuntimeError, TypeError, ValueError,
+)  # fmt: skip
 
 
 class Part(NamedTuple):
@@ -130,11 +136,12 @@ class McapFile:
     def own_metadata(self) -> BagMetadata | None:
         """What rosbag2 has written into the file itself, if it has."""
         for offset in reversed(self._content.metadata_offsets):
-            self._stream.seek(offset + _HEAD.size)
-            record = Metadata.read(ReadDataStream(self._stream))
-            text = record.metadata.get('serialized_metadata')
-            if record.name == 'rosbag2' and text:
-                return metadata.from_text(text, str(self.path))
+            with suppress(*_FAULTS, OSError, BagError):  # the file plays without it
+                self._stream.seek(offset + _HEAD.size)
+                record = Metadata.read(ReadDataStream(self._stream))
+                text = record.metadata.get('serialized_metadata')
+                if record.name == 'rosbag2' and text:
+                    return metadata.from_text(text, str(self.path))
         return None
 
     def parts(self, topics: Collection[str] | None, start: int, end: int) -> list[Part]:
@@ -154,6 +161,8 @@ class McapFile:
         wanted = names.keys() if topics is None else self._numbers(topics)
         for opcode, data, at, length in _records(self._data(part)):
             if opcode == Opcode.MESSAGE:
+                if length < _MESSAGE.size or at + length > len(data):
+                    raise BagError(f'{self.path}: there is no whole message at byte {part.offset}')
                 channel, _, log_time, publish_time = _MESSAGE.unpack_from(data, at)
                 if channel in wanted:
                     body = data[at + _MESSAGE.size : at + length]
@@ -164,15 +173,14 @@ class McapFile:
         return {number for number, each in channels if each.topic in topics}
 
     def _data(self, part: Part) -> bytes:
-        self._stream.seek(part.offset)
-        data = self._stream.read(part.length)
-        if not part.is_chunk:
-            return data
         try:
-            return _unpacked(data[_HEAD.size :])
-        except (*_FAULTS, RuntimeError) as error:
+            self._stream.seek(part.offset)
+            data = self._stream.read(part.length)
+            return _unpacked(data[_HEAD.size :]) if part.is_chunk else data
+        except (*_FAULTS, OSError) as error:
             raise BagError(
-                f'{self.path}: a chunk of it, at byte {part.offset}, cannot be read: {error}'
+                f'{self.path}: a chunk of it, at byte {part.offset}, cannot be read: '
+                f'{shorten(str(error) or type(error).__name__)}'
             ) from error
 
     def _summary(self) -> _Content | None:
@@ -180,7 +188,7 @@ class McapFile:
         self._stream.seek(0)
         try:
             summary = SeekingReader(self._stream).get_summary()
-        except (*_FAULTS, ValueError, OSError):
+        except (*_FAULTS, OSError):
             return None
         if summary is None or summary.statistics is None:
             return None
@@ -230,7 +238,10 @@ class McapFile:
                 content.is_complete = True
                 break
             if opcode in (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.MESSAGE):
-                loose.add(offset, opcode, self._stream.read(length))
+                try:
+                    loose.add(offset, opcode, self._stream.read(length))
+                except _FAULTS:
+                    break
             else:
                 loose.end()
                 if opcode == Opcode.METADATA:
@@ -251,7 +262,7 @@ class McapFile:
             for opcode, data, at, size in _records(_unpacked(body)):
                 loose.add(at, opcode, data[at : at + size])
             loose.end()
-        except (*_FAULTS, RuntimeError):
+        except _FAULTS:
             return False  # it was not written to its end
         content.schemas.update(found.schemas)
         content.channels.update(found.channels)

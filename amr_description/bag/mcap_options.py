@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from mcap.writer import CompressionType, IndexType
-import yaml
 
+from amr_description.bag import yaml_text
+from amr_description.bag.yaml_text import shown
 from amr_description.errors import BagError
-from amr_description.text import did_you_mean, quote, shorten
+from amr_description.text import did_you_mean, quote
 
 DEFAULTS: Mapping[str, Any] = {
     'chunk_size': 768 * 1024,
@@ -59,10 +60,7 @@ def settings_from_text(text: str, path: str) -> dict[str, Any]:
 
     Raises BagError, which begins with ``path``.
     """
-    try:
-        node = yaml.safe_load(text) or {}
-    except (yaml.YAMLError, ValueError) as error:
-        raise BagError(f'{path}: not YAML: {shorten(str(error))}') from error
+    node = yaml_text.load(text, path) or {}
     if not isinstance(node, Mapping):
         raise BagError(f'{path}: want options of MCAP as {{compression: Zstd}}')
     settings: dict[str, Any] = {}
@@ -81,13 +79,12 @@ def _read_option(settings: dict[str, Any], name: Any, value: Any, path: str) -> 
         settings['index_types'] = indexes & ~_INDEXES[name] if is_left_out else indexes
     elif name == 'chunkSize':
         if type(value) is not int or value <= 0:
-            raise BagError(f'{path}: chunkSize: want bytes, not {shorten(repr(value))}')
+            raise BagError(f'{path}: chunkSize: want bytes, not {shown(value)}')
         settings['chunk_size'] = value
     elif name == 'compression':
-        if value not in _COMPRESSIONS:
+        if not isinstance(value, str) or value not in _COMPRESSIONS:
             raise BagError(
-                f'{path}: compression: want one of {", ".join(_COMPRESSIONS)}, not '
-                f'{shorten(repr(value))}'
+                f'{path}: compression: want one of {", ".join(_COMPRESSIONS)}, not {shown(value)}'
             )
         settings['compression'] = _COMPRESSIONS[value]
     elif name not in _WITHOUT_EFFECT:
@@ -98,5 +95,5 @@ def _read_option(settings: dict[str, Any], name: Any, value: Any, path: str) -> 
 
 def _truth(value: Any, name: str, path: str) -> bool:
     if not isinstance(value, bool):
-        raise BagError(f'{path}: {name}: want true or false, not {shorten(repr(value))}')
+        raise BagError(f'{path}: {name}: want true or false, not {shown(value)}')
     return value

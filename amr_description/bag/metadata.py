@@ -9,8 +9,9 @@ from typing import Any
 
 import yaml
 
-from amr_description.bag import qos_text
+from amr_description.bag import qos_text, yaml_text
 from amr_description.bag.storage import TopicMetadata
+from amr_description.bag.yaml_text import shown, word
 from amr_description.errors import BagError
 from amr_description.text import shorten
 
@@ -124,22 +125,19 @@ def from_text(text: str, what: str = FILE_NAME) -> BagMetadata:
 
     Raises BagError, which begins with ``what``.
     """
-    try:
-        node = yaml.load(text, Loader=getattr(yaml, 'CSafeLoader', yaml.SafeLoader))
-    except (yaml.YAMLError, ValueError) as error:
-        raise BagError(f'{what}: not YAML: {shorten(str(error))}') from error
+    node = yaml_text.load(text, what)
     if isinstance(node, Mapping) and _ROOT in node:
         node = node[_ROOT]
     if not isinstance(node, Mapping) or 'version' not in node:
         raise BagError(f"{what}: there is no '{_ROOT}' with a version in it")
     if type(node['version']) is not int or not 1 <= node['version'] <= VERSION:
         raise BagError(
-            f'{what}: version {shorten(str(node["version"]))} is not known; this reads those '
-            f'up to {VERSION}'
+            f'{what}: version {shown(node["version"])} is not known; this reads those up to '
+            f'{VERSION}'
         )
     try:
         return _metadata(node, what)
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
+    except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
         reason = f'{type(error).__name__}: {shorten(str(error))}'
         raise BagError(f'{what}: not as rosbag2 writes it ({reason})') from error
 
@@ -167,44 +165,53 @@ def write(folder: Path, metadata: BagMetadata) -> None:
 
 def _metadata(node: Mapping[str, Any], what: str) -> BagMetadata:
     return BagMetadata(
-        storage_identifier=str(node['storage_identifier']),
+        storage_identifier=word(node['storage_identifier']),
         version=node['version'],
-        starting_time=int(node['starting_time']['nanoseconds_since_epoch']),
-        duration=int(node['duration']['nanoseconds']),
-        message_count=int(node['message_count']),
+        starting_time=_integer(node['starting_time']['nanoseconds_since_epoch']),
+        duration=_integer(node['duration']['nanoseconds']),
+        message_count=_integer(node['message_count']),
         topics_with_message_count=[
-            TopicInformation(_topic(each['topic_metadata'], what), int(each['message_count']))
+            TopicInformation(_topic(each['topic_metadata'], what), _integer(each['message_count']))
             for each in node['topics_with_message_count'] or ()
         ],
-        compression_format=str(node.get('compression_format') or ''),
-        compression_mode=str(node.get('compression_mode') or ''),
-        relative_file_paths=[str(path) for path in node['relative_file_paths'] or ()],
+        compression_format=word(node.get('compression_format')),
+        compression_mode=word(node.get('compression_mode')),
+        relative_file_paths=[word(path) for path in node['relative_file_paths'] or ()],
         files=[
             FileInformation(
-                str(each['path']),
-                int(each['starting_time']['nanoseconds_since_epoch']),
-                int(each['duration']['nanoseconds']),
-                int(each['message_count']),
+                word(each['path']),
+                _integer(each['starting_time']['nanoseconds_since_epoch']),
+                _integer(each['duration']['nanoseconds']),
+                _integer(each['message_count']),
             )
             for each in node.get('files') or ()
         ],
-        custom_data={str(k): str(v) for k, v in (node.get('custom_data') or {}).items()},
-        ros_distro=str(node.get('ros_distro') or ''),
+        custom_data={word(k): word(v) for k, v in (node.get('custom_data') or {}).items()},
+        ros_distro=word(node.get('ros_distro')),
     )
+
+
+def _integer(value: Any) -> int:
+    """Return a time or a number as C++ has it. Raises TypeError, ValueError, OverflowError."""
+    number = int(value)
+    if not -(2**63) <= number < 2**64:
+        raise ValueError(f'{shown(number)} has more than 64 bits')
+    return number
 
 
 def _topic(node: Mapping[str, Any], what: str) -> TopicMetadata:
     qos = node.get('offered_qos_profiles') or ()
-    where = f'{what}: offered_qos_profiles of {node["name"]}'
+    name = word(node['name'])
+    where = f'{what}: offered_qos_profiles of {shorten(name)}'
     profiles = (
         qos_text.from_text(qos, where)
         if isinstance(qos, str)
         else qos_text.from_nodes(list(qos), where)
     )
     return TopicMetadata(
-        str(node['name']),
-        str(node['type']),
-        str(node.get('serialization_format') or 'cdr'),
+        name,
+        word(node['type']),
+        word(node.get('serialization_format')) or 'cdr',
         profiles,
-        str(node.get('type_description_hash') or ''),
+        word(node.get('type_description_hash')),
     )

@@ -5,6 +5,8 @@
 from collections.abc import Callable
 import math
 
+_LONGEST = 2.0**62  # ns; at the fastest and slowest rates floats reach infinity
+
 
 class PlaybackClock:
     """
@@ -45,11 +47,12 @@ class PlaybackClock:
         """Return the time of the recording, ns."""
         if self._paused:
             return self._time
-        return self._time + int((self._steady() - self._since) * self._rate)
+        return self._time + int(min((self._steady() - self._since) * self._rate, _LONGEST))
 
     def until(self, time: int) -> int:
         """Return how long it takes until then, ns of the steady clock; not while it stands."""
-        return self._since + math.ceil((time - self._time) / self._rate) - self._steady()
+        wait = min((time - self._time) / self._rate, _LONGEST)
+        return self._since + math.ceil(wait) - self._steady()
 
     def set_rate(self, rate: float) -> bool:
         """Go on faster or slower; return False, and change nothing, if not above 0."""

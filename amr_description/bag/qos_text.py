@@ -12,6 +12,8 @@ from typing import Any
 
 import yaml
 
+from amr_description.bag import yaml_text
+from amr_description.bag.yaml_text import shown
 from amr_description.errors import BagError
 from amr_description.text import did_you_mean, quote, shorten
 
@@ -80,7 +82,7 @@ def from_node(node: Any, what: str = 'QoS profile') -> QosProfile:
     """
     if not isinstance(node, Mapping):
         raise BagError(
-            f'{what}: want a mapping as {{reliability: best_effort}}, not {_text(node)}'
+            f'{what}: want a mapping as {{reliability: best_effort}}, not {shown(node)}'
         )
     known = [field.name for field in fields(QosProfile)]
     values = {}
@@ -94,11 +96,7 @@ def from_node(node: Any, what: str = 'QoS profile') -> QosProfile:
 
 def from_text(text: str, what: str = 'offered_qos_profiles') -> tuple[QosProfile, ...]:
     """Return the profiles of a YAML text, which may be empty. Raises BagError."""
-    try:
-        nodes = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:
-        raise BagError(f'{what}: not YAML: {shorten(str(error))}') from error
-    return from_nodes(nodes, what)
+    return from_nodes(yaml_text.load(text, what), what)
 
 
 def from_nodes(nodes: Any, what: str = 'offered_qos_profiles') -> tuple[QosProfile, ...]:
@@ -106,7 +104,7 @@ def from_nodes(nodes: Any, what: str = 'offered_qos_profiles') -> tuple[QosProfi
     if not nodes:
         return ()
     if not isinstance(nodes, list):
-        raise BagError(f'{what}: want a list of QoS profiles, not {_text(nodes)}')
+        raise BagError(f'{what}: want a list of QoS profiles, not {shown(nodes)}')
     return tuple(from_node(node, what) for node in nodes)
 
 
@@ -116,13 +114,13 @@ def overrides_from_text(text: str, path: str) -> dict[str, QosProfile]:
 
     Raises BagError, which begins with ``path``.
     """
-    try:
-        nodes = yaml.safe_load(text)
-    except (yaml.YAMLError, ValueError) as error:
-        raise BagError(f'{path}: not YAML: {shorten(str(error))}') from error
+    nodes = yaml_text.load(text, path)
     if not isinstance(nodes, Mapping):
-        raise BagError(f'{path}: want a QoS profile for each topic, not {_text(nodes)}')
-    return {str(topic): from_node(node, f'{path}: {topic}') for topic, node in nodes.items()}
+        raise BagError(f'{path}: want a QoS profile for each topic, not {shown(nodes)}')
+    return {
+        str(topic): from_node(node, f'{path}: {shorten(str(topic))}')
+        for topic, node in nodes.items()
+    }
 
 
 def _value(name: str, value: Any, what: str) -> Any:
@@ -134,7 +132,7 @@ def _value(name: str, value: Any, what: str) -> Any:
     if type(value) is not wanted or value < 0:
         raise BagError(
             f'{what}: want {"true or false" if wanted is bool else "a number from 0 on"}, '
-            f'not {_text(value)}'
+            f'not {shown(value)}'
         )
     return value
 
@@ -142,9 +140,9 @@ def _value(name: str, value: Any, what: str) -> Any:
 def _policy(names: tuple[str, ...], value: Any, what: str) -> str:
     if type(value) is int and 0 <= value < len(names):
         return names[value]
-    if value in names:
-        return str(value)
-    raise BagError(f'{what}: want one of {", ".join(names)}, not {_text(value)}')
+    if isinstance(value, str) and value in names:
+        return value
+    raise BagError(f'{what}: want one of {", ".join(names)}, not {shown(value)}')
 
 
 def _duration(value: Any, what: str) -> int:
@@ -152,11 +150,7 @@ def _duration(value: Any, what: str) -> int:
         (value.get('sec'), value.get('nsec')) if isinstance(value, Mapping) else (None, None)
     )
     if type(sec) is not int or type(nsec) is not int:
-        raise BagError(f'{what}: want {{sec: S, nsec: N}}, not {_text(value)}')
+        raise BagError(f'{what}: want {{sec: S, nsec: N}}, not {shown(value)}')
     if sec < 0 or nsec < 0:
-        raise BagError(f'{what}: a duration must not be negative: {_text(value)}')
+        raise BagError(f'{what}: a duration must not be negative: {shown(value)}')
     return INFINITE if (sec, nsec) in _OTHER_INFINITES else min(sec * _SECOND + nsec, INFINITE)
-
-
-def _text(value: Any) -> str:
-    return shorten(repr(value))

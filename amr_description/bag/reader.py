@@ -5,6 +5,7 @@
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import suppress
 import heapq
+import os
 from pathlib import Path
 
 from amr_description.bag import compression, mcap_file, metadata, sqlite_file
@@ -13,6 +14,7 @@ from amr_description.bag.metadata import BagMetadata, TopicInformation
 from amr_description.bag.sqlite_file import SqliteFile
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
+from amr_description.text import shorten
 
 STORAGES = {'mcap': ('.mcap',), 'sqlite3': ('.db3',)}
 """The ends of the names of files, by the name of their storage."""
@@ -55,7 +57,9 @@ class BagReader:
         """Whether there was no ``metadata.yaml``."""
         self.storage = storage or (given.storage_identifier if given else storage_of(paths[0]))
         if self.storage not in STORAGES:
-            raise BagError(f"{path}: storage '{self.storage}' is not known; mcap and sqlite3 are")
+            raise BagError(
+                f"{path}: storage '{shorten(self.storage)}' is not known; mcap and sqlite3 are"
+            )
         self._open(paths)
         try:
             if given is None:
@@ -245,11 +249,12 @@ def _paths(folder: Path, given: BagMetadata | None, storage: str | None) -> list
         return files_in(folder, storage)
     # Before version 4 the paths had the folder in them.
     paths = [folder / path for path in given.relative_file_paths]
-    paths = [path if path.exists() else folder / path.name for path in paths]
-    missing = [path for path in paths if not path.exists()]
+    # os.path takes names that are too long, or none at all.
+    paths = [path if os.path.exists(path) else folder / path.name for path in paths]
+    missing = [path for path in paths if not os.path.exists(path)]
     if missing:
         raise BagError(
-            f'{folder / metadata.FILE_NAME} names {missing[0].name}, which is not there; '
+            f'{folder / metadata.FILE_NAME} names {shorten(missing[0].name)}, which is not there; '
             f'`ros2 bag reindex {folder}` makes it anew from the files that are'
         )
     if not paths:

@@ -15,6 +15,7 @@ from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
 
 _UNBOUNDED = 1000  # messages of a publisher that keeps all
+_MOST_LATCHED = 100_000  # messages, whatever a bag says
 _TRANSFORMS = 'tf2_msgs/msg/TFMessage'
 
 
@@ -133,11 +134,12 @@ class SplitWatch:
 
 def latched_depth(profiles: Iterable[QosProfile]) -> int:
     """Return how many messages late subscriptions get from publishers of these profiles."""
-    return sum(
+    depth = sum(
         _UNBOUNDED if each.history == 'keep_all' else max(each.depth, 1)
         for each in profiles
         if each.durability == 'transient_local'
     )
+    return min(depth, _MOST_LATCHED)
 
 
 def is_same_offer(profiles: Sequence[QosProfile]) -> bool:

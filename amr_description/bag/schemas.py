@@ -22,6 +22,9 @@ _PRIMITIVES = {
 }  # fmt: skip
 # The type of a field, without what makes an array or a bounded string of it.
 _FIELD_TYPE = re.compile(r'\s*([A-Za-z][\w/]*)')
+_TYPE_NAME = re.compile(
+    r'(?P<package>[a-zA-Z]\w*)/((?P<kind>msg|srv|action)/)?(?P<name>[a-zA-Z]\w*)', re.ASCII
+)
 _EVENT_TEXT = """\
 service_msgs/ServiceEventInfo info
 {name}_Request[<=1] request
@@ -37,9 +40,10 @@ def schema_text(type_name: str) -> str:
     So it is for the types behind services and actions, of which there are no files of their own:
     ``package/srv/Name_Event``, ``package/action/Name_FeedbackMessage`` and so on.
     """
-    package, *_, name = type_name.split('/')
-    kind = type_name.split('/')[1] if type_name.count('/') == 2 else 'msg'
-    return compose(f'{package}/{kind}/{name}', _installed_text)
+    found = _TYPE_NAME.fullmatch(type_name)  # which a bag may have from anybody
+    if not found:
+        return ''
+    return compose(f'{found["package"]}/{found["kind"] or "msg"}/{found["name"]}', _installed_text)
 
 
 def compose(type_name: str, text_of: Callable[[str], str | None]) -> str:

@@ -15,6 +15,7 @@ import time as wall
 from typing import Any
 
 from rclpy.duration import Duration
+from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -29,11 +30,14 @@ from amr_description.bag.ros.service_requests import ServiceRequests
 from amr_description.bag.ros.topic_types import topic_class
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.topic_selection import is_service_event
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, BagError
 from amr_description.ros.messages import fill_stamp
+from amr_description.ros.rclpy_internals import RCLError
 from amr_description.streams import print_traceback
+from amr_description.text import shorten
 
 _SECOND = 10**9
+_LATEST = 2**31 * _SECOND  # ns; builtin_interfaces/Time has no more
 _SPARE = 2_000_000  # ns; with more than that to wait, messages are read ahead
 _LONGEST_WAIT = 3600.0  # s
 _ACKNOWLEDGED = 0.5  # s; subscriptions acknowledge within 0.1 s, or never
@@ -128,8 +132,10 @@ class Player:
                 found[topic.name] = self._node.create_publisher(
                     kind, topic.name, self._profile_of(topic)
                 )
-            except AmrError as error:
-                self._log.warning(f"Ignoring a topic '{topic.name}', reason: {error}.")
+            except (AmrError, NameValidationException, RCLError, OverflowError) as error:
+                self._log.warning(
+                    f"Ignoring a topic '{shorten(topic.name)}', reason: {shorten(str(error))}."
+                )
         if options.acked_timeout >= 0:
             self._warn_of_unacknowledged(found)
         return found
@@ -332,7 +338,8 @@ class Player:
             if (wait is None or wait > _SPARE) and playback.read_ahead():
                 continue
             if wait != 0 and not playback.finished:
-                self._wake.wait(_LONGEST_WAIT if wait is None else wait / _SECOND)
+                seconds = _LONGEST_WAIT if wait is None else wait / _SECOND
+                self._wake.wait(min(seconds, _LONGEST_WAIT))
                 self._wake.clear()
 
     def _do_calls(self) -> None:
@@ -352,6 +359,11 @@ class Player:
 
     def _publish_clock(self, time: int) -> None:
         if self._clock is not None:
+            if time >= _LATEST:
+                raise BagError(
+                    f'/clock cannot have the time {time // _SECOND} s of the recording: it ends '
+                    'in 2038'
+                )
             fill_stamp(time, self._time.clock)
             self._clock.publish(self._time)
 

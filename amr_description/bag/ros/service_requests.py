@@ -13,6 +13,7 @@ from service_msgs.msg import ServiceEventInfo
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.topic_selection import event_topic
 from amr_description.ros.message_types import service_type
+from amr_description.text import shorten
 
 SOURCES = {
     'service_introspection': ServiceEventInfo.REQUEST_RECEIVED,
@@ -44,7 +45,15 @@ class ServiceRequests:
         if message.topic not in self._clients:
             return False
         client, kind = self._clients[message.topic]
-        event = deserialize_message(message.data, kind.Event)
+        try:
+            event = deserialize_message(message.data, kind.Event)
+        except RuntimeError as error:
+            self._warn_once(
+                client.srv_name,
+                f"Can't send service request. An event of '{client.srv_name}' cannot be read: "
+                f'{shorten(str(error))}',
+            )
+            return False
         if event.info.event_type != self._event:
             return False
         if not event.request:

@@ -5,6 +5,7 @@
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, ExitStack
+import math
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +16,7 @@ from amr_description.errors import BagError
 if TYPE_CHECKING:
     from amr_description.bag.reader import BagReader
 
+_LATEST = 2.0**63  # ns
 READERS = ('sqlite3', 'mcap')
 PRESETS = ('none', 'fastwrite', 'zstd_fast', 'zstd_small')
 
@@ -36,9 +38,17 @@ def above_zero(text: str) -> float:
 
 def not_negative_float(text: str) -> float:
     """Read a number from 0 on."""
-    value = _float(text)
-    if not 0.0 <= value < float('inf'):
+    value = finite_float(text)
+    if value < 0.0:
         raise ArgumentTypeError(f'Value {text} is less than zero.')
+    return value
+
+
+def finite_float(text: str) -> float:
+    """Read a number."""
+    value = _float(text)
+    if not math.isfinite(value):
+        raise ArgumentTypeError(f'{text} is not a finite number')
     return value
 
 
@@ -61,8 +71,8 @@ def _float(text: str) -> float:
 
 
 def nanoseconds(seconds: float) -> int:
-    """Return a time in ns."""
-    return round(seconds * 1e9)
+    """Return a time in ns, at most as large as times can be."""
+    return round(min(seconds * 1e9, _LATEST))
 
 
 def add_reader_arguments(parser: ArgumentParser) -> None:

@@ -6,15 +6,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from amr_description.bag import yaml_text
 from amr_description.bag.mcap_writer import PRESETS, WriterOptions
 from amr_description.bag.rewriting import Output
 from amr_description.bag.storage import TopicMetadata
 from amr_description.bag.topic_filter import TopicFilter
 from amr_description.bag.topic_selection import full_name
+from amr_description.bag.yaml_text import shown
 from amr_description.errors import BagError
-from amr_description.text import did_you_mean, quote, shorten
+from amr_description.text import did_you_mean, quote
 
 _DEFAULTS: dict[str, Any] = {
     'uri': '',
@@ -62,11 +62,12 @@ _WITHOUT_EFFECT = {
 def read_outputs(path: str) -> list[Output]:
     """Return the bags that a file asks for. Raises BagError, which begins with ``path``."""
     try:
-        node = yaml.safe_load(Path(path).read_text())
+        text = Path(path).read_text()
     except OSError as error:
         raise BagError(f'{path}: {error.strerror}') from error
-    except (yaml.YAMLError, ValueError) as error:
-        raise BagError(f'{path}: not YAML: {shorten(str(error))}') from error
+    except UnicodeDecodeError as error:
+        raise BagError(f'{path}: {error}') from error
+    node = yaml_text.load(text, path)
     bags = node.get('output_bags') if isinstance(node, Mapping) else None
     if not isinstance(bags, list) or not bags:
         raise BagError(f'{path}: want a sequence of bags under the only key, output_bags')
@@ -111,7 +112,7 @@ def _output(bag: Any, what: str) -> Output:
 
 def _values(bag: Any, what: str) -> dict[str, Any]:
     if not isinstance(bag, Mapping):
-        raise BagError(f'{what}: want a mapping with uri and others, not {shorten(repr(bag))}')
+        raise BagError(f'{what}: want a mapping with uri and others, not {shown(bag)}')
     values = dict(_DEFAULTS)
     for name, value in bag.items():
         if name in _WITHOUT_EFFECT:
@@ -123,7 +124,10 @@ def _values(bag: Any, what: str) -> dict[str, Any]:
             )
         wanted = type(_DEFAULTS[name])
         if type(value) is not wanted:
-            raise BagError(f'{what}: {name}: want a {wanted.__name__}, not {shorten(repr(value))}')
+            raise BagError(f'{what}: {name}: want a {wanted.__name__}, not {shown(value)}')
+        words = value.values() if wanted is dict else value if wanted is list else ()
+        if not all(isinstance(each, str) for each in words):
+            raise BagError(f'{what}: {name}: want texts in it, not {shown(value)}')
         values[name] = value
     return values
 

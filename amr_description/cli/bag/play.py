@@ -15,6 +15,7 @@ from amr_description.cli.bag.inputs import (
     above_zero,
     add_multi_reader_arguments,
     add_selection_arguments,
+    finite_float,
     inputs,
     nanoseconds,
     not_negative_float,
@@ -149,7 +150,7 @@ def _add_begin_and_end(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         '--playback-duration',
-        type=float,
+        type=finite_float,
         default=-1.0,
         help='Playback duration, in seconds. Negative durations mark an infinite playback. '
         'Default is -1. When positive, the maximum effective time between `playback-until-*` and '
@@ -158,7 +159,7 @@ def _add_begin_and_end(parser: ArgumentParser) -> None:
     until = parser.add_mutually_exclusive_group()
     until.add_argument(
         '--playback-until-sec',
-        type=float,
+        type=finite_float,
         default=-1.0,
         help='Playback until timestamp, expressed in seconds since epoch. Mutually exclusive '
         'argument with `--playback-until-nsec`. Use when floating point to integer conversion '

@@ -18,6 +18,8 @@ from pathlib import Path
 from amr_description.cli.bag.inputs import add_output_arguments, add_reader_arguments, open_bags
 from amr_description.errors import BagError
 
+_LATEST = 2**33  # s
+
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
@@ -52,8 +54,8 @@ def seconds(text: str) -> int:
     try:
         value = Decimal(text)
     except InvalidOperation:
-        value = Decimal('nan')
-    if not value.is_finite() or value < 0:
+        value = Decimal(-1)
+    if not 0 <= value < _LATEST:
         raise ArgumentTypeError(f"'{text}' is not a number of seconds from 0 on")
     return int(value * 10**9)
 

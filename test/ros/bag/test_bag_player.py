@@ -336,6 +336,53 @@ def test_a_type_that_is_not_installed_is_left_out(host, tmp_path, capfd):
 
 
 @pytest.mark.parametrize(
+    'wrong',
+    [
+        topic('/no name'),
+        topic(''),
+        topic('/\x1b[2J\n'),
+        topic('/a', kind=''),
+        topic('/a', QosProfile(reliability='unknown')),
+    ],
+)
+def test_a_topic_that_cannot_be_is_left_out(host, tmp_path, wrong, capfd):
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic(wrong, schema='')
+        writer.write(BagMessage(wrong.name, b'\0\1\0\0', BEGIN, BEGIN))
+    with host.player(tmp_path / 'bag', awaited=()) as player:
+        player.start()
+        host.until(lambda: player.is_over)
+    assert player.error is None
+    [line] = [each for each in capfd.readouterr().err.splitlines() if 'Ignoring' in each]
+    assert line.isprintable()
+
+
+def test_the_clock_of_a_far_future_is_refused(host, tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic(topic('/chatter'))
+        writer.write(BagMessage('/chatter', string('x'), 2**62, BEGIN))
+    with host.player(tmp_path / 'bag', awaited=(), clock_topics=()) as player:
+        player.start()
+        host.until(lambda: player.is_over)
+    assert str(player.error).startswith('/clock cannot have the time 4611686018 s')
+
+
+def test_an_event_that_cannot_be_read_is_left_out(host, tmp_path, capfd):
+    name, kind = '/add/_service_event', 'example_interfaces/srv/AddTwoInts_Event'
+    with BagWriter(tmp_path / 'bag') as writer:
+        writer.add_topic(TopicMetadata(name, kind), schema='')
+        writer.write(BagMessage(name, b'\0\1\0\0', BEGIN, BEGIN))
+    source = 'service_introspection'
+    with host.player(tmp_path / 'bag', awaited=(), requests_from=source) as player:
+        player.start()
+        host.until(lambda: player.is_over)
+    assert player.error is None
+    assert (
+        "Can't send service request. An event of '/add' cannot be read: " in capfd.readouterr().err
+    )
+
+
+@pytest.mark.parametrize(
     ('source', 'sums'), [('service_introspection', [3]), ('client_introspection', [7])]
 )
 def test_recorded_requests_are_sent(host, tmp_path, monkeypatch, source, sums):

@@ -51,6 +51,7 @@ def asked(tmp_path, monkeypatch):
         (['--playback-duration', '-2'], {}),
         (['--playback-until-sec', '1700000000.5'], {'until': 1_700_000_000_500_000_000}),
         (['--playback-until-nsec', '1700000000000000001'], {'until': 1_700_000_000_000_000_001}),
+        (['--playback-until-sec', '1e300'], {'until': 2**63}),
         (['--read-ahead-queue-size', '7'], {'read_ahead': 7}),
     ],
 )
@@ -144,6 +145,14 @@ def test_what_excludes_each_other_is_refused(asked, words, capsys):
     with pytest.raises(SystemExit, match='^2$'):
         asked('play', 'bag', *words)
     assert 'not allowed with argument' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('flag', ['--playback-until-sec', '--playback-duration', '--start-offset'])
+@pytest.mark.parametrize('value', ['inf', 'nan'])
+def test_times_are_finite(asked, flag, value, capsys):
+    with pytest.raises(SystemExit, match='^2$'):
+        asked('play', 'bag', flag, value)
+    assert capsys.readouterr().err.endswith(f'{flag}: {value} is not a finite number\n')
 
 
 def test_a_bag_is_given_once(asked):

@@ -75,6 +75,7 @@ def test_publishers_that_differ_but_in_depth_are_offered_as_they_were():
     assert offer_of([LATCHED] * 12).depth == 12
     assert offer_of([QosProfile(history='keep_all')]) == QosProfile()
     assert latched_depth([LATCHED, QosProfile()]) == 1
+    assert latched_depth([QosProfile(depth=2**64, durability='transient_local')]) == 100_000
 
 
 def test_files_follow_each_other_by_their_begins():

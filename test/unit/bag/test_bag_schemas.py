@@ -51,3 +51,10 @@ def test_what_services_and_actions_send(name, first, contained):
 def test_types_of_fields():
     text = 'bool a\nuint8[] b\nFoo c\nx/Bar[3] d\n# x/Not e\nstring NAME=x/y\n'
     assert [*contained_types('p/msg/M', text)] == ['p/msg/Foo', 'x/msg/Bar']
+
+
+@pytest.mark.parametrize(
+    'name', ['', 'String', 'std_msgs/', '../msg/String', 'a/b/c/d', 'std_msgs/msg/\0']
+)
+def test_what_is_no_name_of_a_type_has_no_text(name):
+    assert schema_text(name) == ''

@@ -239,6 +239,7 @@ def test_what_is_wrong_with_a_line_is_told(words, line):
     ('words', 'line'),
     [
         (['trim', 'in', '--duration', '-1'], "argument --duration: '-1' is not a number of sec"),
+        (['trim', 'in', '--end-time', '1e999999'], "'1e999999' is not a number of seconds"),
         (['trim', 'in', '--start-offset', 'x'], "'x' is not a number of seconds from 0 on"),
         (['merge', 'absent'], "argument bag_paths: Bag path 'absent' does not exist!"),
     ],

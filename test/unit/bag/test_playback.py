@@ -90,6 +90,15 @@ def test_a_change_of_rate_takes_effect_between_two_messages():
     assert player.playback.clock.rate == 10.0
 
 
+@pytest.mark.parametrize(('rate', 'is_due'), [(1e308, True), (1e-308, False)])
+def test_the_fastest_and_the_slowest_rate(rate, is_due):
+    player = Player(Recording(0, 100_000), rate=rate)
+    player.due()
+    assert player.playback.wait_time() >= 0
+    player.time = 10**12 * MS
+    assert bool(player.due()) == is_due
+
+
 def test_a_delay_comes_once():
     player = Player(Recording(0, 100), delay=500 * MS, loop=True)
     assert player.play(for_ms=650) == [(500, 0), (600, 100), (600, 0)]
