@@ -7,14 +7,15 @@ A table maps the name of a command or verb to its module. Such a module has a do
 first line is the help and whose rest is printed below the arguments, and either
 
 - ``main(args) -> int``, and ``add_arguments(parser)``: a verb; or
-- ``VERBS``, a table of its own, and optionally ``add_arguments(parser)``: a group of verbs.
+- ``VERBS``, a table of its own, and optionally ``add_arguments(parser)``: a group of verbs. With
+  ``main`` as well, that is called where no verb is given.
 
 It is imported when a command line reaches it, or when its line of help is printed.
 """
 
 import argparse
 from argparse import _SubParsersAction
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import importlib
 from itertools import dropwhile, takewhile
 from types import ModuleType
@@ -34,6 +35,7 @@ class LazyParser(argparse.ArgumentParser):
         super().__init__(*args, **kwargs)
         self._module = module
         self._table: Mapping[str, str] = {}
+        self._main: Callable[[argparse.Namespace], int] | None = None
         self._intermixed = True
 
     def parse_known_args(
@@ -99,7 +101,8 @@ class LazyParser(argparse.ArgumentParser):
             module.add_arguments(self)
         if hasattr(module, 'VERBS'):
             self.read_table(module.VERBS)
-        else:
+        if hasattr(module, 'main'):
+            self._main = module.main
             self.set_defaults(main=module.main)
 
     def _add_table(
@@ -107,7 +110,8 @@ class LazyParser(argparse.ArgumentParser):
     ) -> '_SubParsersAction[LazyParser]':
         """Add the names of the table; with lines of help only if they will be printed."""
         table, self._table = self._table, {}
-        self.set_defaults(main=lambda _args: self.print_help() or 0)
+        if self._main is None:
+            self.set_defaults(main=lambda _args: self.print_help() or 0)
         call = f'Call `{self.prog} <command> -h` for more detailed usage.'
         subparsers = self.add_subparsers(
             title='Commands',

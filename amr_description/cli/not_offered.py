@@ -5,8 +5,6 @@
 INSTEAD_OF_COMMANDS = {
     'ros2 component': 'components are C++ nodes, of which there are none here; start nodes with '
     '`ros2 run` and `ros2 launch`',
-    'ros2 doctor': 'look with `ros2 topic info --verbose TOPIC`, `ros2 node info NODE` and `ros2 '
-    'control list_controllers`, and at a description with `check_urdf FILE`',
     'ros2 multicast': 'see with `ros2 node list` on both machines whether they find each other '
     '(docs/two_machines.md)',
     'ros2 plugin': 'plugins of C++ are not read here; those of the controller manager are listed '
@@ -16,7 +14,5 @@ INSTEAD_OF_COMMANDS = {
     'ros2 service echo': 'call the service with `ros2 service call`, or log in its node',
     'ros2 test': 'write tests for pytest (docs/test_your_robot.md), run by `colcon test`',
     'ros2 trace': 'see the times of the control loop with `ros2 topic echo /diagnostics`',
-    'ros2 wtf': 'look with `ros2 topic info --verbose TOPIC`, `ros2 node info NODE` and `ros2 '
-    'control list_controllers`, and at a description with `check_urdf FILE`',
 }
 """By command, or command and verb, of the original."""

@@ -14,6 +14,7 @@ COMMANDS = {
     'bag': 'amr_description.cli.bag',
     'control': 'amr_description.cli.control',
     'daemon': 'amr_description.cli.daemon',
+    'doctor': 'amr_description.cli.doctor',
     'interface': 'amr_description.cli.interface',
     'launch': 'amr_description.cli.launch',
     'lifecycle': 'amr_description.cli.lifecycle',
@@ -23,6 +24,7 @@ COMMANDS = {
     'run': 'amr_description.cli.run',
     'service': 'amr_description.cli.service',
     'topic': 'amr_description.cli.topic',
+    'wtf': 'amr_description.cli.wtf',
 }
 
 

@@ -32,6 +32,13 @@ RULES: tuple[Rule, ...] = (
     *navigation.RULES,
 )
 
+_FAMILIES = {rule.__name__: rule.__module__.rpartition('.')[2] for rule in RULES}
+
+
+def family(rule: str) -> str:
+    """Return the family of a rule, by its name: the module of its function."""
+    return _FAMILIES[rule]
+
 
 def examine(seen: Observations) -> list[Finding]:
     """Return what all rules find: errors first, each in the order of the table."""

@@ -54,7 +54,9 @@ _TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'  # deprecated; 1 wins over the range and over static peers
 _PEERS = 'ROS_STATIC_PEERS'
-_OURS = {os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK)}
+OWN_PROFILES = {
+    os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK)
+}
 
 
 @contextmanager
@@ -67,7 +69,7 @@ def udp_only() -> Iterator[None]:
     # A parent process may have found this package by another path, as colcon links to the sources.
     given = (os.environ.get(variable) for variable in _PROFILE_VARIABLES)
     inherited = {os.path.realpath(file) for file in given if file}
-    if inherited - _OURS:
+    if inherited - OWN_PROFILES:
         yield
     elif os.environ.get(_TRANSPORTS):
         os.environ[_PROFILE_VARIABLES[0]] = str(PROFILE)
@@ -103,7 +105,7 @@ def is_udp_only() -> bool:
     """Return whether a context that was initialised inside of :func:`udp_only` uses UDP alone."""
     given = (os.environ.get(variable) for variable in _PROFILE_VARIABLES)
     profiles = {os.path.realpath(file) for file in given if file}
-    return bool(profiles) and profiles <= _OURS and not os.environ.get(_TRANSPORTS)
+    return bool(profiles) and profiles <= OWN_PROFILES and not os.environ.get(_TRANSPORTS)
 
 
 def reaches_other_hosts() -> bool:

@@ -7,7 +7,8 @@ A probe publishes nothing, calls no service that changes anything, and holds nob
 messages are large, or many, it subscribes with best effort and a short queue.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 from rclpy.node import Node
@@ -75,7 +76,24 @@ def collect(
         sections: what was observed otherwise, of the host.
     """
     begun = {name: make() for name, make in probes.items()}
-    for probe in begun.values():
-        probe.begin(node)
-    spin(lambda: all(probe.is_done for probe in begun.values()), window)
-    return Observations(**sections, **{name: probe.observe() for name, probe in begun.items()})
+    with _what_is_made_goes(node):
+        for probe in begun.values():
+            probe.begin(node)
+        spin(lambda: all(probe.is_done for probe in begun.values()), window)
+        found = {name: probe.observe() for name, probe in begun.items()}
+    return Observations(**sections, **found)
+
+
+@contextmanager
+def _what_is_made_goes(node: Node) -> Iterator[None]:
+    """Destroy the subscriptions, clients and timers that the block makes: a page looks again."""
+    before = {*node.subscriptions, *node.clients, *node.timers}
+    try:
+        yield
+    finally:
+        for subscription in {*node.subscriptions} - before:
+            node.destroy_subscription(subscription)
+        for client in {*node.clients} - before:
+            node.destroy_client(client)
+        for timer in {*node.timers} - before:
+            node.destroy_timer(timer)

@@ -1,7 +1,290 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Rules of the section ``environment``."""
+"""Rules about environment variables: which ROS is used, and whom its nodes find."""
 
-from amr_description.doctor.findings import Rule
+from collections.abc import Iterator
+import re
 
-RULES: tuple[Rule, ...] = ()
+from amr_description.doctor.findings import error, Finding, Rule, warning
+from amr_description.doctor.observations import Observations
+from amr_description.doctor.observations.environment import Environment, PROFILES
+from amr_description.text import did_you_mean, quote, quote_all, shorten
+
+DISTRIBUTION = 'jazzy'
+LAST_DOMAIN = 232
+"""The ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)."""
+RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
+
+_DOMAIN = 'ROS_DOMAIN_ID'
+_RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
+_LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'
+_PEERS = 'ROS_STATIC_PEERS'
+_SERVER = 'ROS_DISCOVERY_SERVER'
+_RMW = 'RMW_IMPLEMENTATION'
+_LISTS = ('AMENT_PREFIX_PATH', 'PYTHONPATH', 'LD_LIBRARY_PATH')
+_LOADED = ('PYTHONPATH', 'LD_LIBRARY_PATH')
+_INSTALLED = re.compile(r'/opt/ros/([a-z]+)(?=[/:]|$)')
+_PYTHON_FOLDER = re.compile(r'/python(3\.\d+)(?:/|$)')
+_NEW_SHELL = 'open a new shell, and source there only'
+
+
+def other_distribution(seen: Observations) -> Iterator[Finding]:
+    """Distributions of ROS are not mixed in one shell."""
+    if (environment := seen.environment) is None:
+        return
+    found = _sourced(environment)
+    others = sorted(name for name in found if name != DISTRIBUTION)
+    named = environment.value('ROS_DISTRO').lower()
+    if not others and named and named != DISTRIBUTION:
+        yield warning(
+            'other_distribution',
+            f'ROS_DISTRO is {quote(named)}',
+            f'this is {DISTRIBUTION}: tools that ask for the distribution get the wrong one',
+            f'{_NEW_SHELL} {DISTRIBUTION}; see what sets it: grep -n ROS_DISTRO ~/.bashrc',
+        )
+    if others:
+        where = ' and '.join(sorted({name for each in others for name in found[each]}))
+        yield error(
+            'other_distribution',
+            f'/opt/ros/{others[0]} is sourced in this shell ({where}), and this is {DISTRIBUTION}',
+            'modules, messages and libraries of both are mixed: imports fail, or nodes do not '
+            'understand each other',
+            f'{_NEW_SHELL} {DISTRIBUTION}; remove the line from ~/.bashrc: '
+            f"sed -i '/opt\\/ros\\/{others[0]}/d' ~/.bashrc",
+        )
+
+
+def mixed_installations(seen: Observations) -> Iterator[Finding]:
+    """The rclpy of PyPI brings its own libraries, and takes none of ``/opt/ros``."""
+    environment = seen.environment
+    if environment is None or not environment.is_from_wheels:
+        return
+    variables = [
+        name for name in _LOADED if DISTRIBUTION in _INSTALLED.findall(environment.value(name))
+    ]
+    if variables:
+        yield error(
+            'mixed_installations',
+            f'{" and ".join(variables)} name /opt/ros/{DISTRIBUTION}, and rclpy is that of PyPI',
+            'its libraries are found before those of the wheels, which were compiled otherwise',
+            f'unset {" ".join(variables)}; or {_NEW_SHELL} scripts/activate',
+        )
+
+
+def conda(seen: Observations) -> Iterator[Finding]:
+    """Libraries of conda are not for programs outside of it."""
+    if (environment := seen.environment) is None:
+        return
+    prefix = environment.value('CONDA_PREFIX')
+    variables = [
+        name
+        for name in _LOADED
+        if prefix and any(_is_below(each, prefix) for each in _entries(environment, name))
+    ]
+    if variables:
+        yield error(
+            'conda',
+            f'{" and ".join(variables)} name folders of the conda environment {prefix}',
+            'its libstdc++, OpenSSL and Python modules are loaded in place of those that ROS was '
+            'compiled with',
+            f'conda deactivate; unset {" ".join(variables)}',
+        )
+
+
+def python_path(seen: Observations) -> Iterator[Finding]:
+    """Modules of one version of Python are not for another one."""
+    if (environment := seen.environment) is None:
+        return
+    wrong = [
+        entry
+        for entry in _entries(environment, 'PYTHONPATH')
+        if _PYTHON_FOLDER.search(entry)
+        and environment.python_version not in _PYTHON_FOLDER.findall(entry)
+        and not _INSTALLED.search(entry)
+    ]
+    if wrong:
+        version = _PYTHON_FOLDER.findall(wrong[0])[-1]
+        yield error(
+            'python_path',
+            f'PYTHONPATH names {quote(shorten(wrong[0]))}, which is of Python {version}; this is '
+            f'Python {environment.python_version}',
+            'its modules are found before those of this Python, and fail to load',
+            'unset PYTHONPATH; or source the workspace again after it was built with this Python',
+        )
+
+
+def missing_prefix(seen: Observations) -> Iterator[Finding]:
+    """Prefixes in which packages are looked for are there."""
+    if seen.environment is None:
+        return
+    missing = seen.environment.missing_folders.get('AMENT_PREFIX_PATH', ())
+    if missing:
+        yield warning(
+            'missing_prefix',
+            f'AMENT_PREFIX_PATH names {quote_all(missing, 3)}, which '
+            f'{"is" if len(missing) == 1 else "are"} not there',
+            'packages of a workspace that was moved, deleted or built anew are not found',
+            f'build it again with colcon build; or {_NEW_SHELL} what is there',
+        )
+
+
+def domain(seen: Observations) -> Iterator[Finding]:
+    """A ROS domain is an integer from 0 to 232."""
+    text = seen.environment.value(_DOMAIN) if seen.environment else ''
+    if text and (not text.isdecimal() or int(text) > LAST_DOMAIN):
+        yield error(
+            'domain',
+            f'{_DOMAIN} is {quote(text)}',
+            f'a ROS domain is an integer from 0 to {LAST_DOMAIN}; nodes do not start',
+            f'export {_DOMAIN}=0',
+        )
+
+
+def discovery_range(seen: Observations) -> Iterator[Finding]:
+    """The range is one of four words, in capital letters, and OFF is not meant for robots."""
+    text = seen.environment.value(_RANGE) if seen.environment else ''
+    if text and text not in RANGES:
+        known = text.upper() if text.upper() in RANGES else 'SUBNET'
+        yield error(
+            'discovery_range',
+            f'{_RANGE} is {quote(text)}',
+            f'rcl knows {", ".join(RANGES)}, and takes any other word for LOCALHOST: nodes of '
+            'other hosts are not found'
+            + ('' if text.upper() in RANGES else did_you_mean(text.upper(), RANGES)),
+            f'export {_RANGE}={known}',
+        )
+    elif text == 'OFF' and not seen.environment.value(_SERVER):  # type: ignore[union-attr]
+        yield error(
+            'discovery_range',
+            f'{_RANGE} is OFF',
+            'nodes of this shell find no other node, not even on this host',
+            f'export {_RANGE}=LOCALHOST',
+        )
+
+
+def localhost_only(seen: Observations) -> Iterator[Finding]:
+    """``ROS_LOCALHOST_ONLY`` is deprecated since Iron, and wins over what took its place."""
+    if (environment := seen.environment) is None or environment.value(_LOCALHOST_ONLY) != '1':
+        return
+    contradicted = [
+        f'{name}={environment.value(name)}'
+        for name in (_RANGE, _PEERS)
+        if environment.value(name) not in ('', 'LOCALHOST')
+    ]
+    if contradicted:
+        yield error(
+            'localhost_only',
+            f'{_LOCALHOST_ONLY}=1 contradicts {" and ".join(contradicted)}, and wins',
+            'nodes of other hosts are not found',
+            f'unset {_LOCALHOST_ONLY}',
+        )
+    else:
+        yield warning(
+            'localhost_only',
+            f'{_LOCALHOST_ONLY}=1 is set',
+            'it is deprecated, and releases after Jazzy ignore it: nodes would reach the network',
+            f'unset {_LOCALHOST_ONLY}; export {_RANGE}=LOCALHOST',
+        )
+
+
+def static_peers(seen: Observations) -> Iterator[Finding]:
+    """Peers are addresses or names of hosts, separated by semicolons."""
+    text = seen.environment.value(_PEERS) if seen.environment else ''
+    if re.search(r'[,\s]', text):
+        wanted = ';'.join(filter(None, re.split(r'[;,\s]+', text)))
+        yield error(
+            'static_peers',
+            f'{_PEERS} is {quote(text)}',
+            'peers are separated by semicolons; this is taken for one name, which no host has',
+            f"export {_PEERS}='{wanted}'",
+        )
+
+
+def discovery_server(seen: Observations) -> Iterator[Finding]:
+    """With ``ROS_DISCOVERY_SERVER`` nodes are found through that server alone."""
+    if seen.environment is None or not seen.environment.unheard_servers:
+        return
+    yield error(
+        'discovery_server',
+        f'{_SERVER} names {quote_all(seen.environment.unheard_servers)}, where nobody listens',
+        'nodes of this shell find no other node',
+        f'start it: fastdds discovery --server-id 0; or unset {_SERVER}',
+    )
+
+
+def rmw_implementation(seen: Observations) -> Iterator[Finding]:
+    """The middleware that is chosen is installed."""
+    if (environment := seen.environment) is None or not environment.rmw_implementations:
+        return
+    text, known = environment.value(_RMW), sorted(environment.rmw_implementations)
+    if text and text not in known:
+        yield error(
+            'rmw_implementation',
+            f'{_RMW} is {quote(text)}; here {"is" if len(known) == 1 else "are"} '
+            f'{", ".join(known)}{did_you_mean(text, known)}',
+            'no node starts: its library cannot be loaded',
+            f'unset {_RMW}' if len(known) == 1 else f'export {_RMW}={known[0]}',
+        )
+
+
+def profiles_file(seen: Observations) -> Iterator[Finding]:
+    """A profile of Fast DDS can be read."""
+    for name in PROFILES if seen.environment else ():
+        fault = seen.environment.file_faults.get(name)  # type: ignore[union-attr]
+        if fault:
+            yield error(
+                'profiles_file',
+                f'{name}={seen.environment.value(name)} {fault}',  # type: ignore[union-attr]
+                'Fast DDS goes on without it: transports, peers and interfaces are not those that '
+                'it sets',
+                f'unset {name}; or mend the file',
+            )
+
+
+def security(seen: Observations) -> Iterator[Finding]:
+    """Where security is enforced there is a keystore."""
+    if (environment := seen.environment) is None:
+        return
+    fault = environment.file_faults.get('ROS_SECURITY_KEYSTORE')
+    if fault:
+        yield error(
+            'security',
+            'ROS_SECURITY_ENABLE=true and ROS_SECURITY_STRATEGY=Enforce, and '
+            f'ROS_SECURITY_KEYSTORE {fault}',
+            'no node starts',
+            'unset ROS_SECURITY_ENABLE',
+        )
+
+
+RULES: tuple[Rule, ...] = (
+    other_distribution,
+    mixed_installations,
+    conda,
+    python_path,
+    missing_prefix,
+    security,
+    domain,
+    rmw_implementation,
+    discovery_range,
+    localhost_only,
+    static_peers,
+    discovery_server,
+    profiles_file,
+)
+
+
+def _sourced(environment: Environment) -> dict[str, list[str]]:
+    """Return the distributions below ``/opt/ros`` → the variables that name them."""
+    found: dict[str, list[str]] = {}
+    for name in _LISTS:
+        for each in dict.fromkeys(_INSTALLED.findall(environment.value(name))):
+            found.setdefault(each, []).append(name)
+    return found
+
+
+def _entries(environment: Environment, name: str) -> list[str]:
+    return [each for each in environment.value(name).split(':') if each]
+
+
+def _is_below(path: str, folder: str) -> bool:
+    return path == folder or path.startswith(f'{folder.rstrip("/")}/')

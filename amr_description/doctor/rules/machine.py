@@ -1,7 +1,217 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Rules of the section ``machine``."""
+"""Rules about the machine: what ROS needs of any, so that it can start and run at all."""
 
-from amr_description.doctor.findings import Rule
+from collections.abc import Iterator
 
-RULES: tuple[Rule, ...] = ()
+from amr_description.doctor.findings import error, Finding, Rule, warning
+from amr_description.doctor.observations import Observations
+from amr_description.doctor.observations.environment import reaches_network
+from amr_description.doctor.observations.machine import Interface
+
+_MEGABYTE = 1_000_000
+_FULL, _NEARLY_FULL = 10 * _MEGABYTE, 200 * _MEGABYTE
+_SHARED_MEMORY = '/dev/shm'
+_LEAST_MEMORY = 300 * _MEGABYTE
+_LEAST_SHARE = 0.05
+_MOST_STALLED = 0.2
+_NEEDED_GLIBC = (2, 28)
+"""Of the wheels on PyPI: manylinux_2_28."""
+_ARCHITECTURE = 'x86_64'
+_SETUP = 'scripts/setup'
+
+
+def c_library(seen: Observations) -> Iterator[Finding]:
+    """The wheels of ROS are compiled for glibc 2.28 or newer, on x86-64."""
+    machine = seen.machine
+    if machine is None or not _has_wheels(seen):
+        return
+    name, _, version = machine.c_library.partition(' ')
+    if name == 'glibc' and _numbers(version) >= _NEEDED_GLIBC:
+        if machine.architecture == _ARCHITECTURE:
+            return
+        what = f'this machine is {machine.architecture}'
+    else:
+        what = f'this system has {machine.c_library or "no glibc, as Alpine"}'
+    yield error(
+        'c_library',
+        what,
+        'the ROS packages of PyPI are for x86-64 and glibc 2.28 or newer, and do not load',
+        'use a system or container with them: docker run -it debian:12',
+    )
+
+
+def python_abi(seen: Observations) -> Iterator[Finding]:
+    """Binary modules load only in the version of Python that they were compiled for."""
+    if seen.machine is None:
+        return
+    python = seen.machine.python
+    if not python.rclpy_suffixes or python.extension_suffix in python.rclpy_suffixes:
+        return
+    yield error(
+        'python_abi',
+        f'{python.executable} is Python {python.version}, and rclpy in {python.rclpy_folder} is '
+        f'compiled for {", ".join(map(_interpreter, python.rclpy_suffixes))}',
+        "import rclpy fails with No module named '_rclpy_pybind11'",
+        f'run it with that version, as python{_version_of(python.rclpy_suffixes[0])}, or make an '
+        f'environment of its own: {_SETUP}',
+    )
+
+
+def rclpy_import(seen: Observations) -> Iterator[Finding]:
+    """Whatever is of ROS imports rclpy."""
+    if seen.machine is None or any(python_abi(seen)) or any(c_library(seen)):
+        return
+    python = seen.machine.python
+    if python.rclpy_fault:
+        yield error(
+            'rclpy_import',
+            f'rclpy cannot be imported by {python.executable}: {python.rclpy_fault}',
+            'no node can be started',
+            f'{_SETUP}, in a new shell without other ROS or conda; then source scripts/activate'
+            if _has_wheels(seen)
+            else 'source /opt/ros/jazzy/setup.bash in a new shell',
+        )
+
+
+def disk_full(seen: Observations) -> Iterator[Finding]:
+    """Logs, bags and shared memory need some room."""
+    for disk in seen.machine.disks if seen.machine else ():
+        if not disk.total or disk.free >= _NEARLY_FULL:
+            continue
+        # Of a small /dev/shm, as containers have, 64 MB are all there is.
+        if disk.folder == _SHARED_MEMORY and disk.free >= _FULL:
+            continue
+        make = error if disk.free < _FULL else warning
+        mend = (
+            'delete what killed programs left there: rm /dev/shm/fastrtps_* while no ROS runs'
+            if disk.folder == _SHARED_MEMORY
+            else f'delete what is not needed any more: du -xsh {disk.folder}/* | sort -h'
+        )
+        yield make(
+            'disk_full',
+            f'{disk.folder} ({disk.purpose}) has {_size(disk.free)} left of {_size(disk.total)}',
+            'log files, bags and builds end in the middle when it is full',
+            mend,
+        )
+
+
+def log_folder(seen: Observations) -> Iterator[Finding]:
+    """A node that cannot make its log file does not start."""
+    for disk in seen.machine.disks if seen.machine else ():
+        if disk.purpose == 'log files' and not disk.is_writable:
+            yield error(
+                'log_folder',
+                f'{disk.folder} cannot be written by this user',
+                'each node makes its log file there when it starts, and does not start without',
+                'export ROS_LOG_DIR=/tmp/ros_log; or give the folder back: '
+                f'sudo chown -R $USER {disk.folder}',
+            )
+
+
+def memory_short(seen: Observations) -> Iterator[Finding]:
+    """Without memory programs wait for disks, or the kernel ends one."""
+    machine = seen.machine
+    if machine is None or not machine.memory:
+        return
+    is_short = machine.free_memory < min(_LEAST_MEMORY, _LEAST_SHARE * machine.memory)
+    if is_short or machine.stalled_by_memory > _MOST_STALLED:
+        stalled = (
+            f'; programs waited for it in {machine.stalled_by_memory:.0%} of the last 10 s'
+            if machine.stalled_by_memory > _MOST_STALLED
+            else ''
+        )
+        yield warning(
+            'memory_short',
+            f'{_size(machine.free_memory)} of {_size(machine.memory)} memory are free{stalled}',
+            'control cycles come late, and the kernel ends the largest program when none is left',
+            'end what takes the most: ps -eo pid,rss,args --sort=-rss | head',
+        )
+
+
+def loopback_down(seen: Observations) -> Iterator[Finding]:
+    """Nodes of one host talk by the loopback interface."""
+    for each in seen.machine.interfaces if seen.machine else ():
+        if each.is_loopback and not each.is_up:
+            yield error(
+                'loopback_down',
+                f'the loopback interface {each.name} is down',
+                'nodes of this host do not find each other',
+                f'sudo ip link set {each.name} up',
+            )
+
+
+def multicast(seen: Observations) -> Iterator[Finding]:
+    """Nodes of other hosts are found by multicast, unless peers or a server are named."""
+    if seen.machine is None or seen.environment is None:
+        return
+    if not reaches_network(seen.environment):
+        return
+    others = [each for each in seen.machine.interfaces if each.is_up and not each.is_loopback]
+    usable = [each for each in others if each.addresses]
+    if usable and not any(_carries_multicast(each) for each in usable):
+        names = ', '.join(f'{each.name} ({_kind(each)})' for each in usable)
+        yield warning(
+            'multicast',
+            f'no network interface carries multicast: {names}',
+            'the discovery range is SUBNET, and nodes of other hosts are looked for by multicast',
+            'name the other hosts: export ROS_STATIC_PEERS=ADDRESS on both sides; or use this '
+            'host alone: export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST',
+        )
+
+
+def encoding(seen: Observations) -> Iterator[Finding]:
+    """URDFs, YAML files and messages are UTF-8."""
+    machine = seen.machine
+    if machine and machine.encoding.lower().replace('-', '').replace('_', '') != 'utf8':
+        yield warning(
+            'encoding',
+            f'text is read and written as {machine.encoding} here',
+            'a file with an umlaut or a µ cannot be read, or is read wrongly',
+            'export LANG=C.UTF-8 LC_ALL=C.UTF-8',
+        )
+
+
+RULES: tuple[Rule, ...] = (
+    c_library,
+    python_abi,
+    rclpy_import,
+    disk_full,
+    log_folder,
+    memory_short,
+    loopback_down,
+    multicast,
+    encoding,
+)
+
+
+def _has_wheels(seen: Observations) -> bool:
+    return seen.environment is None or seen.environment.is_from_wheels
+
+
+def _carries_multicast(interface: Interface) -> bool:
+    return interface.has_multicast and not interface.is_tunnel
+
+
+def _kind(interface: Interface) -> str:
+    return 'a tunnel, as of a VPN' if interface.is_tunnel else 'without the flag MULTICAST'
+
+
+def _numbers(version: str) -> tuple[int, ...]:
+    return tuple(int(each) for each in version.split('.') if each.isdecimal())
+
+
+def _interpreter(suffix: str) -> str:
+    """Return ``.cpython-310-x86_64-linux-gnu.so`` as ``CPython 3.10``."""
+    return f'CPython {_version_of(suffix)}'
+
+
+def _version_of(suffix: str) -> str:
+    digits = suffix.removeprefix('.cpython-').partition('-')[0]
+    return f'{digits[:1]}.{digits[1:]}'
+
+
+def _size(count: int) -> str:
+    if count >= 1000 * _MEGABYTE:
+        return f'{count / 1e9:.1f} GB'
+    return f'{count / 1e6:.0f} MB'

@@ -1,0 +1,65 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``ros2 doctor`` as a user types it, where nothing runs, and where it cannot look."""
+
+import json
+import os
+import signal
+
+from fixtures.cli.commands import ros2, started
+from support.doc_pages import Page
+from support.page_lines import typed
+
+from amr_description.doctor.table import RULES
+
+PAGE = Page('doctor.md')
+
+
+def test_where_nothing_runs_it_says_what_is_there():
+    said = typed(PAGE, 'ros2 doctor')
+    heads = [line.split()[0] for line in said.splitlines()[:5]]
+    assert heads == ['machine', 'python', 'discovery', 'processes', 'graph']
+    assert f'ROS domain {os.environ["ROS_DOMAIN_ID"]}' in said
+    assert 'no other node' in said
+    assert said.endswith(f'\nAll {len(RULES)} checks passed\n\n')
+
+
+def test_a_middleware_that_is_missing_ends_no_doctor():
+    result = ros2('wtf', '--report-failed', RMW_IMPLEMENTATION='rmw_connextdds')
+    assert result.returncode == 1
+    assert f'\n1/{len(RULES)} check(s) failed\n\nFailed modules: environment\n' in result.stdout
+    assert 'see: docs/doctor.md#rmw_implementation\n' in result.stdout
+    assert '\n   RMW MIDDLEWARE\nmiddleware name    : rmw_connextdds\n' in result.stdout
+    assert 'PACKAGE VERSIONS' not in result.stdout
+
+
+def test_warnings_fail_only_where_they_are_included():
+    deprecated = {'ROS_LOCALHOST_ONLY': '1', 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
+    result = ros2('doctor', '--include-warnings', '--json', **deprecated)
+    found = json.loads(result.stdout)
+    assert (result.returncode, found['passed']) == (1, False)
+    assert 'localhost_only' in {finding['rule'] for finding in found['findings']}
+    assert {finding['severity'] for finding in found['findings']} == {'warning'}
+
+
+def test_reports_have_the_names_of_the_original():
+    result = ros2('doctor', '-r', '-ep', ROS_DOMAIN_ID='-1')
+    titles = [line.strip() for line in result.stdout.splitlines() if line.startswith('   ')]
+    wanted = ['NETWORK CONFIGURATION', 'PLATFORM INFORMATION', 'RMW MIDDLEWARE', 'TOPIC LIST']
+    assert [title for title in titles if title in wanted] == wanted
+    assert 'PACKAGE VERSIONS' not in titles
+
+
+def test_hello_counts_what_it_sends():
+    result = ros2('doctor', 'hello', '--once', '-ep', '0.01', '-t', '/hi')
+    assert result.returncode == 0, result.stderr
+    first, topic, *_, last = result.stdout.splitlines()
+    assert first == 'MULTIMACHINE COMMUNICATION SUMMARY'
+    assert topic.startswith('Topic: /hi, Published Msg Count: ')
+    assert last == '-' * 60
+
+
+def test_a_watch_says_what_is_there_until_it_is_ended():
+    program = started('doctor', '--watch', '0.1', '--json', ROS_DOMAIN_ID='-1')
+    program.expect('"rule": "domain"')
+    assert program.end(signal.SIGINT) == signal.SIGINT
