@@ -18,7 +18,7 @@ import tempfile
 
 from hypothesis import settings
 import pytest
-from support import failures, forked_workers, ordering, preloaded
+from support import failures, forked_workers, leftovers, ordering, preloaded
 
 from amr_description.testing import program
 from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
@@ -159,6 +159,14 @@ def pytest_runtest_makereport(item):
         temporary = getattr(item, 'funcargs', {}).get('tmp_path')
         failures.keep(item.nodeid, f'{report.longreprtext}\n{said}', temporary)
     return report
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item):
+    try:
+        return (yield)
+    finally:
+        leftovers.collect_participants()
 
 
 class Recording:

@@ -10,6 +10,7 @@ from rclpy.client import Client
 from rclpy.task import Future
 
 from amr_description.cli.session import Session
+from amr_description.ros.service_calls import ServiceReadiness
 
 _REPEAT_PERIOD = 0.25  # s from the first request to the second, if there is no answer
 
@@ -29,6 +30,7 @@ class _Call:
 
     def __init__(self, session: Session, client: Client, request: Any, changes: bool) -> None:
         self.client = client
+        self._is_ready = ServiceReadiness(session.node, client)
         self._clock = session.clock
         self._request = request
         self._wait = math.inf if changes else _REPEAT_PERIOD  # s until the next one
@@ -47,7 +49,7 @@ class _Call:
     def send(self) -> None:
         """Send the request, if the service is there and the last one is long enough ago."""
         now = self._clock.now()
-        if now >= self._due and self.client.service_is_ready():
+        if now >= self._due and self._is_ready():
             self._futures.append(self.client.call_async(self._request))
             self._due = now + self._wait
             self._wait *= 2

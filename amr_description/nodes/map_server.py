@@ -51,6 +51,7 @@ from amr_description.navigation.ros.map_service import MapService
 from amr_description.parameters import parameter
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare, values
+from amr_description.ros.rclpy_internals import destroy_lifecycle_services
 from amr_description.ros.runtime import argument_errors, run
 
 _SUCCESS, _FAILURE = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
@@ -138,6 +139,11 @@ class MapServer(LifecycleNode):
         self.get_logger().info('Shutting down')
         self._remove()
         return _SUCCESS
+
+    def destroy_node(self) -> None:
+        """Remove the node, and its services."""
+        super().destroy_node()
+        destroy_lifecycle_services(self)
 
     def _remove(self) -> None:
         self._is_active = False

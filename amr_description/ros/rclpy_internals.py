@@ -24,15 +24,18 @@ from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
-if TYPE_CHECKING:  # rclpy.action loads numpy: a quarter of the processor time of `ros2 topic list`
+if TYPE_CHECKING:
+    # rclpy.action loads numpy: a quarter of the processor time of `ros2 topic list`
     from rclpy.action import ActionServer
     from rclpy.action.server import GoalEvent, ServerGoalHandle
+    from rclpy.lifecycle import LifecycleNode
 
 __all__ = [
     'begin_goal',
     'bytes_publisher',
     'cancel_tasks',
     'clock_subscription',
+    'destroy_lifecycle_services',
     'destroy_type_description_service',
     'end_goal',
     'manual_clock',
@@ -286,6 +289,16 @@ def end_goal(
     future = server._result_futures[bytes(handle.goal_id.uuid)]
     future._set_executor(None)  # sent now: at the executor's next turn the server may be gone
     future.set_result(response)
+
+
+def destroy_lifecycle_services(node: 'LifecycleNode') -> None:
+    """
+    Remove ``~/change_state`` and the others, which ``LifecycleNode.destroy_node()`` forgets.
+
+    They would stay in the graph until a garbage collection, and keep the participant of their
+    context.
+    """
+    node._state_machine.destroy_when_not_in_use()
 
 
 def destroy_type_description_service(node: Node) -> None:

@@ -33,12 +33,43 @@ _MESSAGE_POLL = 0.1
 _GRAPH_POLL = 0.01
 """s between two looks at the graph alone."""
 
+_MATCHED_BY = 2.0
+"""s after which a client and a service of the graph have found each other."""
+
 _LAST_ANSWER = 0.2
 """s for which the answer of a server that is gone may still wait behind other messages."""
 
 
 class NoAnswerError(AmrError):
     """A service did not answer in time."""
+
+
+class ServiceReadiness:
+    """
+    Whether the server of a client is there, so that a request would be answered.
+
+    rmw_fastrtps 8.4 counts the servers that a client has found by changes of one. Where one server
+    comes while another of the same name goes, as when a node is started anew, the two changes are
+    reported together, as none: ``client.service_is_ready()`` is false from then on, though each
+    request would be answered. So a service that has been in the graph for 2 s is taken as ready.
+    """
+
+    def __init__(self, node: Node, client: Client) -> None:
+        """``client``: of ``node``."""
+        self._node, self._client = node, client
+        self._present_since: float | None = None
+
+    def __call__(self) -> bool:
+        """Return whether it is there now."""
+        if self._client.service_is_ready():
+            return True
+        if not self._node.count_services(self._client.srv_name):
+            self._present_since = None
+            return False
+        now = time.monotonic()
+        if self._present_since is None:
+            self._present_since = now
+        return now - self._present_since >= _MATCHED_BY
 
 
 def client_node(name: str) -> Node:
@@ -154,11 +185,8 @@ def call_with(
     node: Node, client: Client, request: Any, *, timeout: float = 10.0, attempts: int = 1
 ) -> Any:
     """As :func:`call`, with a client that is there already."""
-
-    def ready() -> bool | None:
-        return client.service_is_ready() or None
-
-    if not wait_until(node, ready, timeout=timeout):
+    is_ready = ServiceReadiness(node, client)
+    if not wait_until(node, lambda: is_ready() or None, timeout=timeout):
         raise NoAnswerError(
             f'service {client.srv_name} is not there after {timeout:g} s; is its node running?'
         )
@@ -201,7 +229,7 @@ def _answer(
         nonlocal was_there, gone_since
         if (response := answered()) is not None:
             return response
-        if client.service_is_ready():
+        if client.service_is_ready() or node.count_services(service):
             was_there, gone_since = True, 0.0
         elif was_there:
             gone_since = gone_since or time.monotonic()

@@ -35,7 +35,12 @@ from amr_description.errors import SimulationError
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
-from amr_description.ros.service_calls import ask_until_answered, name_of_type, wait_until
+from amr_description.ros.service_calls import (
+    ask_until_answered,
+    name_of_type,
+    ServiceReadiness,
+    wait_until,
+)
 from amr_description.testing.program import SimulatorProcess
 from amr_description.testing.tracebacks import is_for_the_test, without_frames
 
@@ -91,7 +96,7 @@ class LockStep:
     def connect(self) -> None:
         """Wait until the simulator responds. Raises SimulationError."""
         client = self._client(GetSimulationState)
-        self.wait(client.service_is_ready, 'the simulator')
+        self.wait(ServiceReadiness(self.node, client), 'the simulator')
         ask_until_answered(self.node, client, GetSimulationState.Request(), timeout=TIMEOUT)
 
     def measure_timestep(self, entity: str) -> None:
@@ -266,7 +271,7 @@ class LockStep:
 
     def _call(self, service_type: Any, name: str, request: Any) -> Any:
         client = self._client(service_type, name)
-        self.wait(client.service_is_ready, f"the simulator's service {name}")
+        self.wait(ServiceReadiness(self.node, client), f"the simulator's service {name}")
         future = client.call_async(request)
         self.wait(future.done, f'the answer of {name}')
         return future.result()

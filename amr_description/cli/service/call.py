@@ -98,12 +98,14 @@ def _wait_for_service(session: 'Session', client: 'Client', timeout: float | Non
     from amr_description.cli import graph
     from amr_description.cli.discovery import is_there_within
     from amr_description.ros.message_types import type_name
+    from amr_description.ros.service_calls import ServiceReadiness
 
-    if client.service_is_ready():
+    is_ready = ServiceReadiness(session.node, client)
+    if is_ready():
         return
     print('waiting for service to become available...')
     left = float('inf') if timeout is None else timeout
-    if session.spin(client.service_is_ready, min(left, _HINT_AFTER)):
+    if session.spin(is_ready, min(left, _HINT_AFTER)):
         return
     hint = graph.explain_absent_service(
         client.service_name,
@@ -113,10 +115,10 @@ def _wait_for_service(session: 'Session', client: 'Client', timeout: float | Non
     if left > _HINT_AFTER:
         if hint:
             print(f'WARNING: {hint}', file=sys.stderr)
-        if session.spin(client.service_is_ready, left - _HINT_AFTER):
+        if session.spin(is_ready, left - _HINT_AFTER):
             return
         hint = ''
-    elif is_there_within(session, client.service_is_ready, 0.0):
+    elif is_there_within(session, is_ready, 0.0):
         return
     raise AmrError(
         f"Service '{client.service_name}' did not become available within {timeout:g} s"

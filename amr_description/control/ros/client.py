@@ -23,6 +23,7 @@ from amr_description.ros.service_calls import (
     call_with,
     name_of_type,
     NoAnswerError,
+    ServiceReadiness,
     wait_until,
 )
 from amr_description.text import did_you_mean
@@ -245,8 +246,10 @@ class ManagerClient:
         """Wait until the service is there, and log what is missing. Raises ControllerError."""
         service, log = client.srv_name, self._node.get_logger()
 
+        is_ready = ServiceReadiness(self._node, client)
+
         def ready() -> bool | None:
-            return client.service_is_ready() or None
+            return is_ready() or None
 
         def log_absence() -> None:
             log.warning(f'Could not contact service {service}: {self._probe.explain()}')

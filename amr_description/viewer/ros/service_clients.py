@@ -44,6 +44,7 @@ from simulation_interfaces.srv import (
 from amr_description.errors import ViewerError
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_pose, transform_of
+from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.text import unwrap
 from amr_description.viewer.protocol import (
     ControllerInfo,
@@ -167,7 +168,7 @@ class ServiceClients:
         loop = asyncio.get_running_loop()
         answered = loop.create_future()
         try:
-            await _ready(client)
+            await _ready(ServiceReadiness(self._node, client), name)
             pending = client.call_async(request)
         except InvalidHandle:  # the ROS thread has destroyed it in the meantime
             raise ViewerError(f'service {name} has gone; is its node running?') from None
@@ -187,14 +188,13 @@ class ServiceClients:
         return pending.result()
 
 
-async def _ready(client: Client) -> None:
+async def _ready(is_ready: ServiceReadiness, service: str) -> None:
     loop = asyncio.get_running_loop()
     deadline = loop.time() + _READY_TIMEOUT
-    while not client.service_is_ready():
+    while not is_ready():
         if loop.time() > deadline:
             raise ViewerError(
-                f'service {client.srv_name} is not there after {_READY_TIMEOUT:g} s; is its node '
-                'running?'
+                f'service {service} is not there after {_READY_TIMEOUT:g} s; is its node running?'
             )
         await asyncio.sleep(_READY_PERIOD)
 

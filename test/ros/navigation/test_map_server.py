@@ -116,6 +116,14 @@ def test_a_lifecycle_manager_brings_it_up_and_down(started, hall):
     assert state(node) == 'finalized'
 
 
+def test_a_node_that_is_destroyed_leaves_nothing_in_the_graph(started):
+    _, node = started()
+    other = MapServer()
+    wait_until(node, lambda: node.count_services('/map_server/get_state') == 2 or None)
+    other.destroy_node()
+    assert node.count_services('/map_server/get_state') == 1
+
+
 def test_topic_and_frame_are_parameters(started, hall):
     _, node = started(f'yaml_filename:={hall}', 'topic_name:=hall', 'frame_id:=world')
     assert change(node, 'configure')

@@ -2,8 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calls of services that are slow, silent or not there."""
 
+from contextlib import ExitStack
+from random import Random
+import time
+
 import pytest
+import rclpy
 from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
@@ -12,11 +18,14 @@ from support.manager_host import ros_in_this_process
 from support.ros_processes import PATIENCE
 from support.serving import serving
 
+from amr_description.ros import service_calls
 from amr_description.ros.service_calls import (
     ask_until_answered,
     call,
     call_with,
     NoAnswerError,
+    ServiceReadiness,
+    wait_until,
 )
 
 
@@ -149,3 +158,42 @@ def test_a_question_is_asked_until_it_is_answered(server, caller):
         ask_until_answered(caller, client, Trigger.Request(), timeout=0.7, attempts=2)
     server.answer.set_result('here')
     assert ask_until_answered(caller, client, Trigger.Request()).message == 'here'
+
+
+def test_a_client_that_is_never_ready_calls_what_is_in_the_graph(server, caller, monkeypatch):
+    monkeypatch.setattr(service_calls, '_MATCHED_BY', 0.2)
+    client = caller.create_client(Trigger, '/slow')
+    monkeypatch.setattr(client, 'service_is_ready', lambda: False)
+    is_ready = ServiceReadiness(caller, client)
+    wait_until(caller, lambda: caller.count_services('/slow') or None, timeout=PATIENCE)
+    assert not is_ready()
+    server.answer.set_result('here')
+    assert call_with(caller, client, Trigger.Request(), timeout=PATIENCE).message == 'here'
+
+
+@pytest.mark.parametrize('rounds', [8, pytest.param(200, marks=pytest.mark.long)])
+def test_a_server_may_go_while_another_of_its_name_comes(rounds):
+    """As when a node is started anew: 1 of 7 clients is then never ready, says rmw_fastrtps."""
+    random = Random(1)
+    present = ExitStack()
+    try:
+        for _ in range(rounds):
+            former, present = present, ExitStack()
+            context = Context()
+            rclpy.init(args=[], context=context)
+            present.callback(context.try_shutdown)
+            server, caller = (Node(name, context=context) for name in ('server', 'caller'))
+            present.callback(server.destroy_node)
+            present.callback(caller.destroy_node)
+            server.create_service(Trigger, 'again', lambda _, response: response)
+            client = caller.create_client(Trigger, 'again')
+            time.sleep(0.03 * random.random())  # between the two discoveries, or after them
+            former.close()
+            executors = [SingleThreadedExecutor(context=context) for _ in range(2)]
+            for executor, node in zip(executors, (server, caller), strict=True):
+                executor.add_node(node)
+                present.callback(executor.shutdown)
+            with serving(executors[0]):
+                assert call_with(caller, client, Trigger.Request(), timeout=PATIENCE)
+    finally:
+        present.close()
