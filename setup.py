@@ -113,6 +113,7 @@ setup(
             'motor_board = amr_description.entry:nodes.motor_board.main',
             'mujoco_sim = amr_description.entry:nodes.mujoco_sim.main',
             'navigator = amr_description.entry:nodes.navigator.main',
+            'replay = amr_description.entry:testing.replay.main',
             'robot_state_publisher = amr_description.entry:nodes.robot_state_publisher.main',
             'ros2_control_node = amr_description.entry:nodes.ros2_control_node.main',
             'scan_localizer = amr_description.entry:nodes.scan_localizer.main',

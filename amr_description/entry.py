@@ -119,7 +119,7 @@ def use_one_blas_thread() -> None:
 
 
 _package = LazyEntryPoint(__package__)
-bringup, nodes = _package.bringup, _package.nodes
+bringup, nodes, testing = _package.bringup, _package.nodes, _package.testing
 OWN_NODES: str = nodes.path
 """The package whose modules are the nodes, named as their executables."""
 xacro = LazyEntryPoint('xacro')

@@ -12,6 +12,7 @@ nanoseconds.
 ``metadata.py``        ``metadata.yaml``
 ``yaml_text.py``       YAML of bags, also what nobody can have meant
 ``schemas.py``         the text of a message type with all that it contains, for those who read it
+``type_hashes.py``     the hashes of message types
 ``mcap_writer.py``     ``BagWriter``: a folder of MCAP files
 ``mcap_options.py``    how they are written: presets, and files of options
 ``output_file.py``     the file below it: what is written is there, also when the program is killed
@@ -19,6 +20,7 @@ nanoseconds.
 ``mcap_file.py``       an MCAP file, also one that was cut off
 ``sqlite_file.py``     a file of the older storage of rosbag2, to read
 ``compression.py``     files and messages that rosbag2 has compressed
+``run_description.py`` of what a run of the simulator consists that was recorded
 ``info_text.py``       what ``ros2 bag info`` prints
 ``topic_filter.py``    which topics are recorded
 ``topic_selection.py`` which topics are meant by the flags of a command line

@@ -136,12 +136,18 @@ class Input[Sample]:
         self.port = port
         self.check = check
         self.is_open = False
-        self._samples: deque[Sample] = deque(maxlen=capacity)
+        self.on_drain: Callable[[list[bytes]], None] | None = None
+        """Called with the messages of the samples that are drained, for who records them."""
+        self._samples: deque[tuple[Sample, bytes]] = deque(maxlen=capacity)
 
-    def put(self, sample: Sample) -> bool:
-        """Store a sample; return False if the input is closed, which drops it."""
+    def put(self, sample: Sample, message: bytes = b'') -> bool:
+        """
+        Store a sample; return False if the input is closed, which drops it.
+
+        ``message``: that it was made of, serialized, for :attr:`on_drain`; empty: none.
+        """
         if self.is_open:
-            self._samples.append(sample)
+            self._samples.append((sample, message))
         return self.is_open
 
     def drain(self) -> list[Sample]:
@@ -149,7 +155,10 @@ class Input[Sample]:
         samples = self._samples
         if not samples:
             return []
-        return [samples.popleft() for _ in range(len(samples))]
+        taken = [samples.popleft() for _ in range(len(samples))]
+        if self.on_drain is not None:
+            self.on_drain([message for _, message in taken if message])
+        return [sample for sample, _ in taken]
 
     def open(self) -> None:
         """Start to take samples; the manager calls it when the controller is activated."""

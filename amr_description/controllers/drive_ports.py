@@ -37,8 +37,10 @@ class EmergencyStop(Input[FlagSample]):
         self.is_engaged = False
         """Written on the ROS thread: all that an update reads of it."""
 
-    def put(self, sample: FlagSample) -> bool:
+    def put(self, sample: FlagSample, message: bytes = b'') -> bool:
         """Take the state of the lock, whatever the controller's is."""
+        if self.on_drain is not None and message:
+            self.on_drain([message])
         was_engaged, self.is_engaged = self.is_engaged, sample.value
         if was_engaged != sample.value:
             name = self.port.name

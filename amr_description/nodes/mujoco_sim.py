@@ -73,7 +73,7 @@ class MujocoSim:
         EntityServices(self.node, self.simulation)
         WorldServices(self.node, self.simulation)
         WrenchTopics(self.node, self.simulation)
-        surroundings = WorldPublisher(self.node, self.simulation.world)
+        surroundings = WorldPublisher(self.node, self.simulation.world, self.simulation.publisher)
         surroundings.publish()
         self.simulation.on_world = surroundings.publish
         self._services = SimulationServices(

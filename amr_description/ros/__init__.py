@@ -42,5 +42,6 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``cdr_tree.py``           … or all of one, shortened, as JSON has it
 ``cdr_template.py``       … and made without making messages: by a template
 ``cdr_writer.py``         … likewise, field by field
+``cdr_padding.py``        … so that equal messages have equal bytes
 ========================= =========================================================================
 """

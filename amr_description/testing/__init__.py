@@ -20,8 +20,12 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 ``sensors.py``            what its lidars, cameras and contact sensors see at an instant
 ``lock_step.py``        services of a paused simulator; commands that are known to have arrived
 ``program.py``          the simulator's process and its ROS domain
+``bags.py``             recordings of tests: ``--ros-bag=on-failure``
 ``failure_logs.py``     the simulator's log, for a test that fails
 ``tracebacks.py``       which of our frames a failed test shows
+
+``recorded_run.py``     what a bag of the simulator has to be run again
+``replay.py``           runs it again, and compares every message: ``ros2 run … replay BAG``
 
 ``recorded_drive.py``   a controller that drives a course and records every state
 ``determinism.py``      two runs of it, compared byte by byte

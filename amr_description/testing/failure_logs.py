@@ -8,6 +8,7 @@ file beside it, which a CI service can keep as an artifact: ``results/report.xml
 ``test_ramp`` in ``results/report.test_my_robot.test_ramp.log``.
 """
 
+import hashlib
 import os
 from pathlib import Path
 import re
@@ -18,6 +19,8 @@ from amr_description.testing.program import started
 
 TAIL = 12
 """Lines of the log in the report."""
+_LONGEST = 150
+"""Bytes of the name of a test in that of a file, which may have 255."""
 
 
 def forget_ended() -> None:
@@ -41,14 +44,27 @@ def add_logs(item: pytest.Item, report: pytest.TestReport) -> None:
         report.sections.append((heading, '\n'.join([*left_out, *lines[-TAIL:]])))
 
 
+def beside_junit_report(config: pytest.Config) -> Path | None:
+    """Return the path of the JUnit report without its ending; None: there is no such report."""
+    option = config.getoption('xmlpath', None)
+    return Path(os.path.expanduser(os.path.expandvars(option))).with_suffix('') if option else None
+
+
+def file_name(nodeid: str) -> str:
+    """Return the name of a test as that of a file, without an ending."""
+    name = re.sub(r'[^\w-]+', '.', nodeid.replace('.py::', '.')).strip('.')
+    if len(name.encode()) <= _LONGEST:
+        return name
+    digest = hashlib.sha256(nodeid.encode()).hexdigest()[:8]
+    return f'{name.encode()[:_LONGEST].decode(errors="ignore")}-{digest}'
+
+
 def _write(item: pytest.Item, report: pytest.TestReport, text: str) -> str:
     """Write a log beside the JUnit report; return its path, '' without such a report."""
-    option = item.config.getoption('xmlpath', None)
-    if not option:
+    beside = beside_junit_report(item.config)
+    if beside is None:
         return ''
-    xml = Path(os.path.expanduser(os.path.expandvars(option)))
-    name = re.sub(r'[^\w-]+', '.', report.nodeid.replace('.py::', '.')).strip('.')
-    path = xml.with_name(f'{xml.stem}.{name}.log')
+    path = beside.with_name(f'{beside.name}.{file_name(report.nodeid)}.log')
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding='utf-8')

@@ -8,7 +8,8 @@ In your ``conftest.py``::
     pytest_plugins = ['amr_description.testing.fixtures']
 
 A test that fails shows the last lines of the simulator's log; all of it is in a file beside that
-of ``--junitxml`` (``failure_logs.py``).
+of ``--junitxml`` (``failure_logs.py``). With ``--ros-bag=on-failure`` it leaves a bag
+(``bags.py``).
 
 They are not registered by an entry point ``pytest11``: that would load them, with their names,
 into every pytest of the environment.
@@ -22,6 +23,7 @@ import warnings
 import pytest
 
 from amr_description.errors import SimulationError
+from amr_description.testing import bags
 from amr_description.testing.failure_logs import add_logs, forget_ended
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.tracebacks import is_for_the_test, without_frames
@@ -29,6 +31,21 @@ from amr_description.testing.tracebacks import is_for_the_test, without_frames
 __tracebackhide__ = is_for_the_test
 
 type MakeSimulation = Callable[..., Simulation]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add ``--ros-bag`` and ``--ros-bag-dir``."""
+    bags.add_options(parser)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Read them."""
+    bags.configure(config)
+
+
+def pytest_unconfigure() -> None:
+    """Remove recordings that no test has ended."""
+    bags.unconfigure()
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -41,8 +58,9 @@ def pytest_runtest_setup() -> None:
 def pytest_runtest_makereport(
     item: pytest.Item,
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Add the logs of the simulators to the report of a test that fails."""
+    """Add the logs and bags of the simulators to the report of a test that fails."""
     report = yield
+    bags.add_bags(item, report)
     if report.failed:
         add_logs(item, report)
     return report
@@ -65,6 +83,7 @@ def simulation() -> Iterator[MakeSimulation]:
             sim = running[key]
             if sim.is_alive:
                 sim.reset()
+                bags.begin(sim)
                 return sim
             del running[key]
             try:

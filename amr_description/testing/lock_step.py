@@ -16,8 +16,10 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import KeyValue
+from rcl_interfaces.srv import SetParameters
 from rclpy.client import Client
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
@@ -126,6 +128,15 @@ class LockStep:
             raise SimulationError(f'{name}: {result.error_message}')
         return response
 
+    def set_parameter(self, name: str, value: Any) -> None:
+        """Set a parameter of the simulator. Raises SimulationError: it is refused."""
+        request = SetParameters.Request(
+            parameters=[Parameter(name, value=value).to_parameter_msg()]
+        )
+        (result,) = self._call(SetParameters, 'set_parameters', request).results
+        if not result.successful:
+            raise SimulationError(result.reason)
+
     def measure(self) -> list[str]:
         """Have all sensors that are heard measure now; return the topics that are heard."""
         response = self._call(Trigger, 'measure', Trigger.Request())
@@ -152,7 +163,7 @@ class LockStep:
 
     # --- topics -------------------------------------------------------------------------------
 
-    def send_all(self, messages: Mapping[str, Any]) -> None:
+    def send_all(self, messages: Mapping[str, Any], *, as_they_are: bool = False) -> None:
         """
         Publish messages to controllers and wait until all are acknowledged.
 
@@ -162,12 +173,16 @@ class LockStep:
 
         Args:
             messages: Topic → message.
+            as_they_are: Whether a header without a stamp stays so.
 
         Raises:
             SimulationError: No controller accepts a message, or a second robot hears it.
         """
         waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
-        waiting = {topic: self._prepared(topic, message) for topic, message in waiting.items()}
+        waiting = {
+            topic: self._prepared(topic, message, as_they_are)
+            for topic, message in waiting.items()
+        }
 
         def has_arrived() -> bool | None:
             # Wait for the last one: none may arrive after time has gone on, or back.
@@ -198,14 +213,14 @@ class LockStep:
             self._acknowledged.pop(topic, None)
             self._checked.pop(topic, None)
 
-    def _prepared(self, topic: str, message: Any) -> Any:
+    def _prepared(self, topic: str, message: Any, as_it_is: bool) -> Any:
         """Return a message with its stamp, once its topic has a subscriber."""
         publisher = self._publishers.get(topic)
         if publisher is None:
             publisher = self.node.create_publisher(type(message), topic, QoSProfile(depth=10))
             self._publishers[topic] = publisher
             self._published[topic] = 0
-        if hasattr(message, 'header') and message.header.stamp == Time():
+        if not as_it_is and hasattr(message, 'header') and message.header.stamp == Time():
             message = copy.deepcopy(message)
             fill_stamp(self.time, message.header.stamp)
         self.wait(

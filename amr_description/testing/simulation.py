@@ -51,9 +51,11 @@ from amr_description.model.urdf import parse as parse_urdf
 from amr_description.ros.discovery import use_whole_graph
 from amr_description.ros.local_participants import is_on_the_network
 from amr_description.ros.transport import udp_only
+from amr_description.testing import bags
 from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
+from amr_description.testing.recorded_run import read_run
 from amr_description.testing.robot import (
     namespace_of,
     Robot,
@@ -97,6 +99,7 @@ class Simulation:
         pose: Transform = _AT_ORIGIN,
         robots: Mapping[str, Transform] | None = None,
         parameters: Mapping[str, Any] | None = None,
+        record: str | Path | None = None,
     ) -> None:
         """
         Describe the simulation; it is started by ``with``.
@@ -118,6 +121,7 @@ class Simulation:
             robots: Several robots instead of one: name → pose. Each is in the namespace of its
                 name, which the parameter file has to cover (``/**/controller_manager: …``).
             parameters: Further parameters of ``mujoco_sim``.
+            record: The folder of a bag to be made; see :meth:`record`.
         """
         if not (math.isfinite(rtf) and rtf >= 0.0):
             raise SimulationError(f'rtf is {rtf}; a real-time factor is 0 or above')
@@ -128,6 +132,7 @@ class Simulation:
         self._name = name
         self._poses: Mapping[str, Transform] = {'': pose} if robots is None else robots
         self._rtf = rtf
+        self._record = record
         self._parameters: dict[str, Any] = {
             'world': _absolute(world),
             'paused': True,
@@ -163,6 +168,9 @@ class Simulation:
             for name, pose in self._poses.items():
                 self._spawn(name, pose)
             self._begin()
+            if self._record is not None:
+                self.record(self._record)
+            bags.begin(self)
             self._stack = stack.pop_all()
         return self
 
@@ -404,6 +412,43 @@ class Simulation:
         self._running.reset()
         for robot in self._robots.values():
             robot.forget()
+
+    def record(self, folder: str | Path) -> None:
+        """
+        Record from now on: all that the simulator publishes, and the commands that act.
+
+        Nothing is lost, and the same calls give the same files, byte for byte. A reset begins a
+        new file of the bag. It is complete after :meth:`end_recording`, or after the block.
+
+        Args:
+            folder: Of the bag, which must not be there.
+        """
+        self._running.set_parameter('record', str(Path(folder).absolute()))
+
+    def end_recording(self) -> None:
+        """Complete the bag, if there is one."""
+        self._running.set_parameter('record', '')
+
+    def replay(self, bag: str | Path) -> None:
+        """
+        Reset, and drive as recorded: each command of a bag at the simulated time of its record.
+
+        The robots are to be those of the bag, with the same controllers active; then every bit
+        is, too. :func:`amr_description.testing.replay.simulation_of` makes such a simulation.
+
+        Args:
+            bag: A recording of the simulator that begins at time 0; a folder or a file.
+
+        Raises:
+            BagError: It is none.
+        """
+        run = read_run(Path(bag))
+        self.reset()
+        for instant in run.instants:
+            self.step((instant.time - self._running.time) // self._running.timestep)
+            for topic, message in instant.commands:
+                self._running.send_all({topic: message}, as_they_are=True)
+        self.step()  # so that controllers tick at the last instant
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """

@@ -51,7 +51,16 @@ ARROWS = {
     'ament_copyright': set(),
     'workspace': set(),
     'control/ros': {'ros', 'control', 'controllers', 'hardware', 'model'},
-    'sim/ros': {'control/ros', 'ros', 'sim', 'control', 'controllers', 'model'},
+    'sim/ros': {
+        'bag',  # it records in its own process, without loss
+        'bag/ros',
+        'control/ros',
+        'ros',
+        'sim',
+        'control',
+        'controllers',
+        'model',
+    },
     'viewer/ros': {'viewer', 'ros', 'model', 'doctor', 'doctor/host', 'doctor/ros'},
     'navigation/ros': {'navigation', 'ros', 'tf2_ros', 'model'},
     # Its rules are pure; `host` reads this machine, `ros` the graph around it.
@@ -88,7 +97,7 @@ ARROWS = {
         'model',
     },
     # It starts mujoco_sim and check_urdf.
-    'testing': {'bringup', 'cli', 'control/ros', 'nodes', 'ros', 'control', 'model'},
+    'testing': {'bag', 'bringup', 'cli', 'control/ros', 'nodes', 'ros', 'control', 'model'},
 }
 # For nodes and tests of users, under their names in ROS.
 FOR_USERS = {'message_filters', 'sensor_msgs_py', 'ament_copyright'}

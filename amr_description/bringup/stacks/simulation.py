@@ -5,6 +5,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 import math
+from pathlib import Path
 from typing import Annotated
 from xml.etree import ElementTree
 
@@ -48,6 +49,7 @@ ABOUT_STRICT = 'whether a robot that has to be taken as something else is refuse
 ABOUT_BRIDGE = 'configuration file of ros_gz_bridge, by which topics of Gazebo are called'
 ABOUT_MOCKS = 'mock_components is simulated as other hardware (simulate), or stays a mock (mock)'
 ABOUT_RENDERER = 'what makes pictures of cameras: OpenGL (gl), rays, or OpenGL if it works (auto)'
+ABOUT_RECORD = 'folder of a bag to which the run is recorded, in simulated time and without loss'
 ABOUT_EKF = 'whether amr has its odom -> base_footprint from wheels and IMU, by ekf_node'
 _EKF = 'package://amr_description/config/ekf.yaml'
 _CONTROLLERS_BESIDE_EKF = 'package://amr_description/config/controllers_ekf.yaml'
@@ -86,6 +88,7 @@ def simulation(
     bridge: Annotated[str, ABOUT_BRIDGE] = '',
     camera_renderer: Annotated[str, ABOUT_RENDERER] = 'auto',
     ekf: Annotated[bool, ABOUT_EKF] = False,
+    record: Annotated[str, ABOUT_RECORD] = '',
 ) -> SimulatedRobot:
     """The robot in MuJoCo with its controllers, ready to drive."""
     controllers, filters = _filter(ekf, urdf, controllers)
@@ -96,6 +99,7 @@ def simulation(
     plan = plan_controllers(urdf, description, controllers, activate, bridge=bridge)
     options: dict[str, ParameterValue] = {'lift': lift, 'strict': strict, 'bridge': bridge}
     options |= {'mock_hardware': mock_hardware, 'camera_renderer': camera_renderer}
+    options |= {'record': _new_folder(record)}
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = _simulator(world, rtf, paused, plan.parameter, options)
@@ -145,6 +149,7 @@ _OPTIONS: Mapping[str, ParameterValue] = {
     'mock_hardware': 'simulate',
     'bridge': '',
     'camera_renderer': 'auto',
+    'record': '',
 }
 
 
@@ -171,6 +176,16 @@ def _simulator(
     if options['bridge']:
         parameters['bridge'] = str(path_of(str(options['bridge']), 'bridge'))
     return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
+
+
+def _new_folder(record: str) -> str:
+    """Return the absolute path of a bag that is to be made; empty: none is."""
+    if not record:
+        return ''
+    path = Path(record).expanduser().absolute()
+    if path.exists() or path.is_symlink():
+        raise UsageError(f'record:={record}: it is there already; another name will do')
+    return str(path)
 
 
 def entity_name(urdf: str) -> str:

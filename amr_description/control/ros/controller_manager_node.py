@@ -109,6 +109,7 @@ class ControllerManagerNode:
 
     def destroy(self) -> None:
         """Remove the node; on the ROS thread."""
+        self.context.publisher.forget((), tuple(self.node.publishers))
         destroy_node(self.node)
 
 
@@ -245,7 +246,7 @@ class StatusTopics:
         self._manager: ControllerManager | None = None
         self._may_overrun = False
         self._warns_of_overruns = parameters.start.overruns.print_warnings
-        self._activity = ActivityTopic(node)
+        self._activity = ActivityTopic(node, context.publisher)
         self._diagnostics = DiagnosticsTopic(node, context.loop_thread, parameters)
         self._introspection = Introspection(node, context)
         node.add_post_set_parameters_callback(self._on_parameters_set)

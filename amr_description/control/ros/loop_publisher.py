@@ -40,11 +40,15 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from rclpy.subscription import Subscription
 from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
+from amr_description.control.contracts import Input
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import Encoder, encoder_of
+from amr_description.control.ros.tape import Sink, Tape, TapedInput, TapedPublisher
+from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import (
     bytes_publisher,
@@ -74,7 +78,7 @@ class LoopTopic:
     """A topic on which samples go out at the end of a cycle; :meth:`LoopPublisher.topic`."""
 
     __slots__ = (
-        'publisher', 'is_heard', 'keeps_last', 'newest',
+        'publisher', 'is_heard', 'keeps_last', 'newest', 'sink',
         '_keeps_many', '_encode', '_publish_bytes', '_publish_without_lock', '_outbox',
     )  # fmt: skip
 
@@ -89,6 +93,8 @@ class LoopTopic:
         """Whether who subscribes later gets the last message."""
         self.newest: Any = _NOTHING
         """The sample that has still to be kept for those."""
+        self.sink: Sink | None = None
+        """Records what is published, if anybody does; such a topic is always heard."""
         self._encode, self._publish_bytes = encode, bytes_publisher(publisher)
         self._publish_without_lock = publisher_without_lock(publisher)
         self._outbox = outbox
@@ -100,6 +106,9 @@ class LoopTopic:
     def write(self, sample: Any) -> None:
         """Publish a sample now. Raises InvalidHandle: the topic is gone."""
         made = self._encode(sample)
+        if self.sink is not None:
+            made = made if isinstance(made, bytes) else serialize(made)
+            self.sink(made)
         if isinstance(made, bytes):
             self._publish_bytes(made)
         else:
@@ -111,12 +120,20 @@ class LoopTopic:
 
         Its encoder makes bytes. Raises InvalidHandle: the topic is gone.
         """
-        self._publish_without_lock(self._encode(sample))
+        made = self._encode(sample)
+        if self.sink is not None:
+            self.sink(made)
+        self._publish_without_lock(made)
 
     def look(self) -> None:
         """Look whether somebody subscribes, 0.9 µs. Raises InvalidHandle: the topic is gone."""
         is_heard = self.publisher.get_subscription_count() > 0
-        self.is_heard = is_heard or self._keeps_many
+        self.is_heard = is_heard or self._keeps_many or self.sink is not None
+
+    def attach(self, tape: Tape | None) -> None:
+        """Record from now on; None: no more, as the next look finds."""
+        self.sink = None if tape is None else tape.samples_of(self.publisher)
+        self.is_heard = self.is_heard or self.sink is not None
 
 
 def _keeps_many(qos: QoSProfile) -> bool:
@@ -158,6 +175,8 @@ class LoopPublisher:
         self._outbox: list[tuple[LoopTopic, Any]] = []
         self._topics: tuple[LoopTopic, ...] = ()
         self._changing_topics = threading.Lock()
+        self._tape: Tape | None = None
+        self._taped: tuple[LoopTopic | TapedPublisher | TapedInput, ...] = ()
         self._wall_clock, self._look_period = clock, look_period
         self._next_look = 0
         """ns of the wall clock."""
@@ -195,25 +214,70 @@ class LoopPublisher:
     def acknowledge(self, topic: str, number: int) -> None:
         """A controller accepted a publisher's message ``number``, from 1; on any thread."""
 
-    def topic(self, publisher: Publisher, encode: Encoder) -> LoopTopic:
+    def topic(self, publisher: Publisher, encode: Encoder, *, is_taped: bool = True) -> LoopTopic:
         """
         Take in a topic, until its publisher is destroyed.
 
         Args:
             publisher: Of the topic.
             encode: Called for each sample that somebody hears.
+            is_taped: Whether it is recorded; not so what depends on the wall clock.
         """
         topic = LoopTopic(publisher, encode, self._outbox)
         with self._changing_topics:
             self._topics = (*self._topics, topic)
+        if is_taped:
+            self._add_taped(topic)
         self._next_look = 0
         return topic
+
+    # --- recording ----------------------------------------------------------------------------
+
+    def taped(self, publisher: Publisher) -> TapedPublisher:
+        """Return what publishes at once, and is recorded, until the publisher is destroyed."""
+        is_latched = publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        taped = TapedPublisher(publisher, is_latched=is_latched)
+        self._add_taped(taped)
+        return taped
+
+    def input(self, port: Input[Any], subscription: Subscription) -> None:
+        """Have the commands of an input recorded, until :meth:`forget`."""
+        self._add_taped(TapedInput(port, subscription))
+
+    def forget(self, ports: Sequence[Input[Any]], publishers: Sequence[Publisher] = ()) -> None:
+        """Record nothing of these inputs and publishers, which are destroyed."""
+
+        def is_gone(each: LoopTopic | TapedPublisher | TapedInput) -> bool:
+            if isinstance(each, TapedInput):
+                return any(each.port is port for port in ports)
+            return any(each.publisher is publisher for publisher in publishers)
+
+        with self._changing_topics:
+            self._taped = tuple(each for each in self._taped if not is_gone(each))
+
+    def set_tape(self, tape: Tape | None) -> None:
+        """Record with a tape from now on; None: no more. On the control thread."""
+        with self._changing_topics:
+            self._tape = tape
+            for each in self._taped:
+                if isinstance(each, LoopTopic) and each.newest is not _NOTHING:
+                    self._write(each, each.newest)  # it was sent before the recording began
+                    each.newest = _NOTHING
+                each.attach(tape)
+
+    def _add_taped(self, each: LoopTopic | TapedPublisher | TapedInput) -> None:
+        with self._changing_topics:
+            self._taped = (*self._taped, each)
+            each.attach(self._tape)
 
     def set_clocks(self, time: int) -> None:
         """Set the clock of every node in this process to ``time``, ns."""
 
     def publish(self, time: int) -> None:
         """Publish what was sent since the last call; ``time``: of this cycle, ns."""
+        tape = self._tape
+        if tape is not None:
+            tape.begin_cycle(time)
         is_looking = self._must_look(time)
         if is_looking:
             self._look()
@@ -232,6 +296,8 @@ class LoopPublisher:
                     topic.newest = _NOTHING
         if self.followers:
             self.follow()
+        if tape is not None:
+            tape.end_cycle()
 
     def follow(self) -> None:
         """Have done what waits for the end of a cycle, such as pictures that time waits for."""
@@ -265,6 +331,7 @@ class LoopPublisher:
         if gone:
             with self._changing_topics:
                 self._topics = tuple(topic for topic in self._topics if topic not in gone)
+                self._taped = tuple(each for each in self._taped if each not in gone)
 
     def _write(self, topic: LoopTopic, sample: Any) -> None:
         try:
@@ -313,6 +380,8 @@ class ClockedLoopPublisher(LoopPublisher):
     def set_clocks(self, time: int) -> None:
         """Set the clock of every node in this process to ``time``, ns."""
         self._clock.set_ros_time_override(Time(nanoseconds=time, clock_type=ClockType.ROS_TIME))
+        if self._tape is not None:
+            self._tape.set_time(time)
 
     def publish(self, time: int) -> None:
         """Publish ``/clock``, and then what was sent."""

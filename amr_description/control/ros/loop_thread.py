@@ -137,6 +137,11 @@ class LoopThread:
         """Start the thread."""
         self._thread.start()
 
+    @property
+    def is_alive(self) -> bool:
+        """Whether it takes calls."""
+        return self._thread.is_alive()
+
     def stop(self) -> None:
         """
         End the loop after the present cycle, if it was started, and join the thread.

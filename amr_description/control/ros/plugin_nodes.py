@@ -31,6 +31,7 @@ from amr_description.control.interfaces import LifecycleState
 from amr_description.control.manager_parameters import CommonParameters
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import encoder_of
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.port_servers import (
     GoalServer,
@@ -42,6 +43,7 @@ from amr_description.errors import AmrError
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.callback_thread import CallbackThread
+from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
@@ -113,12 +115,13 @@ class ControllerNode:
         self._context = context
         self._publishers: list[Publisher] = []
         self._inputs: CallbackThread | None = None
+        self._ports: list[Input[Any]] = []
         self._servers: list[ServiceServer | GoalServer] = []
         self.node: Node = context.publisher.make_node(name, namespace, arguments)
         try:
             self._table = controller_class.parameters_type
             self.log = context.logs.log_of(self.node.get_logger())
-            self.publish_transition = TransitionEvents(self.node)
+            self.publish_transition = TransitionEvents(self.node, context.publisher)
             common = self._declare(update_rate, *_names_of(robot))
             self.controller = controller_class(
                 ControllerContext(
@@ -170,6 +173,8 @@ class ControllerNode:
         if self._inputs is not None:
             self._inputs.end()
             self._inputs = None
+        self._publisher.forget(self._ports, self._publishers)
+        self._ports.clear()
         for publisher in self._publishers:
             self.node.destroy_publisher(publisher)
         self._publishers.clear()
@@ -177,6 +182,7 @@ class ControllerNode:
     def destroy(self) -> None:
         """Remove the node."""
         self.disconnect()
+        self._publisher.forget((), tuple(self.node.publishers))
         destroy_node(self.node)
 
     # --- parameters ---------------------------------------------------------------------------
@@ -216,7 +222,7 @@ class ControllerNode:
                 return
             if reason:
                 self.node.get_logger().error(reason)
-            elif port.put(sample):
+            elif port.put(sample, serialize(message) if port.on_drain else b''):
                 self._publisher.acknowledge(
                     subscription.topic_name, info['publication_sequence_number']
                 )
@@ -228,6 +234,8 @@ class ControllerNode:
         subscription = thread.subscribe(
             _message_type(port.port), port.port.name, receive, qos(port.port.qos)
         )
+        self._ports.append(port)
+        self._publisher.input(port, subscription)
 
     def _now(self) -> int:
         return self.node.get_clock().now().nanoseconds
@@ -289,11 +297,11 @@ class TransitionEvents:
     Beyond rcl, which leaves them empty, they have the transition itself and its time.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, loop_publisher: LoopPublisher) -> None:
         self._clock = node.get_clock()
         self._context = node.context
-        self._publisher = node.create_publisher(
-            TransitionEvent, '~/transition_event', QoSProfile(depth=10)
+        self._publisher = loop_publisher.taped(
+            node.create_publisher(TransitionEvent, '~/transition_event', QoSProfile(depth=10))
         )
 
     def __call__(

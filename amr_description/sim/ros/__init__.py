@@ -8,6 +8,8 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``entities.py``             robots are spawned and removed, each with its controller manager
 ``plugin_controllers.py``   starts the controllers that stand for Gazebo's plugins
 ``other_clock.py``          ends, or warns, where another simulator publishes ``/clock``
+``run_recording.py``        begins and ends recordings, as the parameter ``record`` says
+``run_recorder.py``         records what this process publishes, and the commands, to a bag
 ``loop_timing.py``          warns when real time is not kept, with the slow stage of the loop
 
 ``service_replies.py``      services from handlers that raise

@@ -7,7 +7,7 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 import enum
 from pathlib import Path
@@ -75,6 +75,16 @@ class EntityRecord:
     tags: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Spawned:
+    """With what an entity was spawned."""
+
+    robot: Robot
+    namespace: str
+    """Absolute."""
+    pose: Transform
+
+
 @dataclass(slots=True)
 class Entity:
     """A robot in the world, completely spawned."""
@@ -85,6 +95,7 @@ class Entity:
     """None: its URDF has no ``<ros2_control>`` block."""
     thread: ExecutorThread | None
     """Runs the callbacks of the manager, its components and controllers."""
+    origin: Spawned | None = None
 
 
 class EntityManager:
@@ -137,6 +148,8 @@ class EntityManager:
         self._simulates_mocks = simulates_mocks
         self._lift = lift
         self._ros_args = ros_args
+        self.on_change: Callable[[], None] = lambda: None
+        """Called when an entity was spawned, before its controllers start, or removed."""
         self._entities: dict[str, Entity] = {}
         self._starting: dict[str, Future] = {}
         """Of entities whose controllers are being started: done when they are."""
@@ -207,7 +220,10 @@ class EntityManager:
             running, thread = self._serve(prepared, manager, given)
         self._ground_truth.add(given, namespace)
         self._sensors.add(given, namespace, translation.sensors)
-        self._entities[given] = Entity(given, EntityRecord(_category_of(robot)), running, thread)
+        record = EntityRecord(_category_of(robot))
+        origin = Spawned(robot, namespace, pose)
+        self._entities[given] = Entity(given, record, running, thread, origin)
+        self.on_change()
         if running is not None and thread is not None:
             starting = start_controllers(running, translation.controllers, self._log)
             self._starting[given] = started = run_in(thread.executor, starting, self._executor)
@@ -232,6 +248,7 @@ class EntityManager:
             abandon(self._starting.pop(name), self._executor)
         await self._loop_thread.submit(lambda: self._detach(entity))
         _destroy(entity)
+        self.on_change()
 
     async def remove_all(self) -> int:
         """Remove all robots; return how many."""

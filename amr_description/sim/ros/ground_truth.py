@@ -22,6 +22,8 @@ Nothing is computed for a topic without subscribers. Of several robots in one na
 has these topics; those of the others are below their names.
 """
 
+from collections.abc import Callable
+
 from control_msgs.msg import DynamicJointState
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
@@ -58,7 +60,12 @@ class GroundTruth:
     """
 
     def __init__(
-        self, node: Node, loop_publisher: LoopPublisher, world: MujocoWorld, rate: float
+        self,
+        node: Node,
+        loop_publisher: LoopPublisher,
+        world: MujocoWorld,
+        rate: float,
+        has_ticked: Callable[[int], bool] = lambda _: False,
     ) -> None:
         """
         Publish from now on, at the end of control cycles.
@@ -68,12 +75,16 @@ class GroundTruth:
             loop_publisher: Publishes at the end of a cycle.
             world: The simulated world.
             rate: Hz of simulated time, at most once a cycle; 0: never.
+            has_ticked: Whether the controllers have ticked at a time, ns. In such cycles the
+                instants are those of the rate alone, so that a recording of them does not
+                depend on how time was stepped.
         """
         self._node = node
         self._loop_publisher = loop_publisher
         self._world = world
         self._period = round(NANOSECONDS / rate) if rate else 0
-        self._latest = self._interval = -1
+        self._has_ticked = has_ticked
+        self._latest = self._interval = self._interval_of_tick = -1
         self._robots: dict[str, _RobotTruth] = {}
         loop_publisher.reporters.append(self.report)
 
@@ -99,13 +110,23 @@ class GroundTruth:
             self._robots = {key: each for key, each in self._robots.items() if key != name}
             truth.destroy(self._node)
 
+    def restart(self) -> None:
+        """Have the next cycle be due; on the control thread."""
+        self._latest = self._interval = self._interval_of_tick = -1
+
     def report(self, time: int) -> None:
         """Publish what is due at ``time``, ns."""
         stands_still, self._latest = time == self._latest, time
         if not self._robots:
             return
-        is_due, self._interval = time // self._period != self._interval, time // self._period
-        if not (is_due or stands_still):
+        interval = time // self._period
+        if self._has_ticked(time):
+            is_due = interval != self._interval_of_tick
+            self._interval_of_tick = interval
+        else:
+            is_due = interval != self._interval or stands_still
+        self._interval = interval
+        if not is_due:
             return
         present = self._world.names
         for name, truth in self._robots.items():

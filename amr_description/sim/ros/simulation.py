@@ -18,12 +18,14 @@ QUITTING  the process ends
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import enum
+from typing import Any
 
 from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.ament_index import path_of
+from amr_description.bag.run_description import RunDescription, RunRobot
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
@@ -31,7 +33,7 @@ from amr_description.control.ros.loop_thread import CallQueue, LoopContext, Loop
 from amr_description.control.ros.pacing import WallPacer
 from amr_description.errors import ParameterError, ResourceError, SimulationError
 from amr_description.model.gazebo_bridge import Bridge, NO_BRIDGE, read_bridge
-from amr_description.parameters import group, parameter
+from amr_description.parameters import group, parameter, specs
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
@@ -39,6 +41,7 @@ from amr_description.sim.cameras import CHOICES
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.loop_timing import LoopProfiler
+from amr_description.sim.ros.run_recording import controllers_text, on_loop, RunRecording
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import WorldSettings
@@ -101,6 +104,15 @@ class SimulationParameters:
         'What the simulation does when the physics goes wrong, beside saying so',
         choices=('continue', 'pause'),
     )
+    record: str = parameter(
+        '',
+        'Folder of a bag to which the run is recorded from now on, in simulated time and '
+        'without loss; empty: end the recording',
+    )
+    record_regex: str = parameter(
+        '', 'Of the names of topics: which are recorded; empty: all, pictures of cameras, too'
+    )
+    record_exclude_regex: str = parameter('', 'Of the names of topics: which are not recorded')
     seed: int = parameter(
         0, 'From which the noise of every sensor follows', minimum=0, read_only=True
     )
@@ -119,6 +131,12 @@ class SimulationParameters:
         magnitude=(1e-3, 1e5),
         read_only=True,
     )
+
+
+_OF_THE_PROCESS = {
+    'paused', 'real_time_factor', 'controllers', 'record', 'record_regex', 'record_exclude_regex',
+}  # fmt: skip
+"""Parameters on which no result depends, or that a recorded run has in another way."""
 
 
 class SimulationState(enum.IntEnum):
@@ -171,10 +189,12 @@ class Simulation:
         self.logs = LogThread()
         try:
             self.log = self.logs.log_of(node.get_logger())
-            publisher = ClockedLoopPublisher(node)
+            publisher = self.publisher = ClockedLoopPublisher(node)
             publisher.adopt(node)
             self.world, self.world_name = _world_of(parameters, self.log), parameters.world
-            ground_truth = GroundTruth(node, publisher, self.world, parameters.ground_truth_rate)
+            ground_truth = self._ground_truth = GroundTruth(
+                node, publisher, self.world, parameters.ground_truth_rate, self._has_ticked
+            )
             calls = CallQueue(PAUSED_CLOCK_PERIOD)
             self._pacer = WallPacer(parameters.real_time_factor, calls)
             profiler = LoopProfiler(self.log, self.world, self._pacer, publisher)
@@ -186,20 +206,14 @@ class Simulation:
             if parameters.paused:
                 self.loop_thread.loop.pause()
             context = LoopContext(self.loop_thread, publisher, self.logs)
-            self._sensors = SensorManager(
-                node,
-                publisher,
-                self.world,
-                self.log,
-                self._is_paced,
-                self._has_ticked,
-                parameters.camera_renderer,
-            )
-            self._sensors.on_first = self._serve_measurements
+            self._sensors = self._sensor_manager()
             self.entities = self._entity_manager(context, ground_truth, ros_args)
+            self.recording = self._recording(calls)
         except Exception:
             self.logs.stop()
             raise
+        if parameters.record:
+            self.recording.begin(parameters.record)
         add_validation_callback(node, SimulationParameters)
         node.add_post_set_parameters_callback(self._on_parameters_set)
 
@@ -222,6 +236,58 @@ class Simulation:
             lift=self.parameters.lift,
             ros_args=ros_args,
         )
+
+    def _sensor_manager(self) -> SensorManager:
+        sensors = SensorManager(
+            self._node,
+            self.publisher,
+            self.world,
+            self.log,
+            self._is_paced,
+            self._has_ticked,
+            self.parameters.camera_renderer,
+        )
+        sensors.on_first = self._serve_measurements
+        return sensors
+
+    def _recording(self, calls: CallQueue) -> RunRecording:
+        recording = RunRecording(
+            self._node,
+            self.publisher,
+            on_loop=on_loop(calls.put, lambda: self.loop_thread.is_alive),
+            time=lambda: self.world.time,
+            has_ticked=self._has_ticked,
+            is_paced=self._is_paced,
+            describe=self._describe_run,
+            log=self.log,
+        )
+        recording.on_begin = self._ground_truth.restart
+        self.entities.on_change = recording.update
+        return recording
+
+    def _describe_run(self) -> RunDescription:
+        robots = tuple(
+            RunRobot(
+                each.name,
+                origin.namespace,
+                origin.pose.translation,
+                origin.pose.rotation,
+                origin.robot.text,
+            )
+            for each in self.entities
+            if (origin := each.origin)
+        )
+        changed: dict[str, Any] = {}
+        for spec in specs(SimulationParameters):
+            value = self._node.get_parameter(spec.name).value
+            is_told = value != spec.default or spec.name == 'camera_renderer'
+            if is_told and spec.name not in _OF_THE_PROCESS:
+                changed[spec.name] = value
+        if self.world_name != SimulationParameters.world:
+            changed['world'] = self.world_name
+        path = self.parameters.controllers
+        first = next((each.origin.robot for each in self.entities if each.origin), None)
+        return RunDescription(changed, controllers_text(path, first), robots)
 
     def _is_paced(self) -> bool:
         """Whether cycles wait for the wall clock: neither at factor 0 nor in a step."""
@@ -247,6 +313,7 @@ class Simulation:
 
     def close(self) -> None:
         """Stop the control thread; then destroy the robots' nodes."""
+        self.recording.end()  # the end of the controllers is not part of the run
         self._sensors.stop()
         self.loop_thread.stop()
         self._sensors.close()
@@ -294,6 +361,7 @@ class Simulation:
         await self.stop()
         await self.loop_thread.submit(lambda: self.world.load(world))
         self.world_name = world
+        self.recording.update()
         if self.on_world is not None:
             self.on_world()
 
@@ -325,6 +393,7 @@ class Simulation:
         def reset() -> None:
             world, loop = self.world, self.loop_thread.loop
             now = world.time
+            self._ground_truth.restart()
             if state:
                 world.reset()
             world.time = 0 if time else now

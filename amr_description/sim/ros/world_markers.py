@@ -23,6 +23,7 @@ from geometry_msgs.msg import Point
 from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
 
+from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.model.frames import rotate
 from amr_description.ros.qos import LATCHED
 from amr_description.sim.ros.names import WORLD_FRAME
@@ -46,8 +47,12 @@ _TYPES = {
 class WorldPublisher:
     """Publishes the static geometry, latched."""
 
-    def __init__(self, node: Node, world: MujocoWorld) -> None:
-        self._publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
+    def __init__(
+        self, node: Node, world: MujocoWorld, loop_publisher: LoopPublisher | None = None
+    ) -> None:
+        """``loop_publisher``: has it recorded with what a run publishes."""
+        publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
+        self._publisher = loop_publisher.taped(publisher) if loop_publisher else publisher
         self._world = world
 
     def publish(self) -> None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/bags.md, typed as it stands."""
 
-from contextlib import ExitStack
+from contextlib import chdir, ExitStack
 import re
 import signal
 
@@ -10,8 +10,11 @@ from fixtures.cli.commands import started
 import pytest
 from support.doc_pages import Page
 from support.page_lines import command, typed
+from support.paths import ROOT
 from support.running_programs import Program
 from support.small_bags import LATCHED, read_bag, topic, write_bag
+
+from amr_description.testing.simulation import Simulation
 
 PAGE = Page('bags.md')
 CLOCK = 'rosgraph_msgs/msg/Clock'
@@ -73,6 +76,21 @@ def test_recordings_begin_and_end(folder):
             program.signal(signal.SIGINT)
         assert [program.end() for program in programs] == [0, 0, 0]
     assert (folder / 'drive' / 'metadata.yaml').exists()
+
+
+def test_a_simulation_is_recorded_and_driven_again(tmp_path):
+    # In the folder of the simulator, as that of a launch is that of the shell.
+    with chdir(tmp_path), Simulation(ROOT / 'urdf' / 'amr.urdf') as sim:
+        typed(PAGE, 'ros2 param set /mujoco_sim record drive', tmp_path)
+        sim.drive(0.5, 0.3, seconds=0.2)
+        assert typed(PAGE, "ros2 param set /mujoco_sim record ''", tmp_path)
+    said = typed(PAGE, 'ros2 run amr_description replay', tmp_path).splitlines()
+    assert re.fullmatch(r'drive: 0\.\d+ s, \d+ commands', said[0])
+    assert re.fullmatch(r'equal, byte for byte: \d{3} messages', said[1])
+    shown = re.search(r'```text\n(drive: .*?)```', PAGE.text, re.DOTALL)[1].splitlines()
+    assert [re.sub(r'[\d.]+', 'N', line) for line in said] == [
+        re.sub(r'[\d.]+', 'N', line) for line in shown
+    ]
 
 
 def test_a_bag_is_looked_at(folder):

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a user sees of a test that fails: one line at the line of the test, and the log."""
 
+from pathlib import Path
 import re
 import sys
 
 import pytest
 from support.paths import ROOT
 from support.running_programs import Program
+
+from amr_description.bag.reader import BagReader
 
 TESTS = f"""
 from amr_description.testing.simulation import Simulation
@@ -33,6 +36,12 @@ def test_end(simulation):
 def test_no_start():
     Simulation(URDF, world='nowhere').__enter__()
 """
+BAGS = {
+    'test_number': ('test_number', 'test_number-2'),
+    'test_a_fault_of_ours': ('test_a_fault_of_ours',),
+    'test_end': ('test_end',),
+}
+"""The simulations of each test that fails, if they have begun."""
 LOADED = 'Loaded hardware .AmrSystem.'
 
 
@@ -45,7 +54,7 @@ def report(tmp_path_factory):
     (folder / 'test_my_robot.py').write_text(TESTS)
     # Without the options of the run that this is part of, and plugins that take 2 s to load.
     only_its_own = {'PYTEST_ADDOPTS': '', 'PYTEST_DISABLE_PLUGIN_AUTOLOAD': '1'}
-    options = ('-p', 'no:cacheprovider', '--junitxml=results/report.xml')
+    options = ('-p', 'no:cacheprovider', '--junitxml=results/report.xml', '--ros-bag=on-failure')
     command = (sys.executable, '-m', 'pytest', *options, str(folder))
     with Program(*command, cwd=folder, env=only_its_own) as run:
         assert run.end() == 1, run.output
@@ -76,6 +85,7 @@ def test_the_log_is_in_the_report_and_beside_it(report):
     assert {each.name for each in results.iterdir()} == {
         'report.xml',
         *(f'report.test_my_robot.{test}.log' for test in by_test),
+        *(f'report.test_my_robot.{bag}.mcap' for bags in BAGS.values() for bag in bags),
     }
     for test, printed in by_test.items():
         path = f'results/report.test_my_robot.{test}.log'
@@ -85,6 +95,18 @@ def test_the_log_is_in_the_report_and_beside_it(report):
     number = (results / 'report.test_my_robot.test_number.log').read_text()
     assert len(re.findall(LOADED, number)) == 2  # of the test before, and its own that has ended
     assert "'nowhere'" in (results / 'report.test_my_robot.test_no_start.log').read_text()
+
+
+def test_the_bags_are_beside_it_and_their_paths_in_the_report(report):
+    by_test, results = report
+    for test, printed in by_test.items():
+        shown = re.findall(
+            r'^(\S+\.mcap): ros2 bag info \1; again: ros2 run', printed, re.MULTILINE
+        )
+        names = [f'report.test_my_robot.{bag}.mcap' for bag in BAGS.get(test, ())]
+        assert [Path(each).name for each in shown] == names
+    with BagReader(results / 'report.test_my_robot.test_number.mcap') as reader:
+        assert '/mujoco_sim/run' in reader.topics
 
 
 def test_two_simulations_of_a_process_do_not_disturb_each_other(report):

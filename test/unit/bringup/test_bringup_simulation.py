@@ -160,6 +160,15 @@ def test_a_renderer_is_one_that_there_is():
         stack(camera_renderer='vulkan')
 
 
+def test_a_recording_is_a_new_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert stack(record='drive').nodes[0].parameters[0]['record'] == str(tmp_path / 'drive')
+    assert 'record' not in stack().nodes[0].parameters[0]
+    (tmp_path / 'drive').mkdir()
+    with pytest.raises(AmrError, match='^record:=drive: it is there already; another name'):
+        stack(record='drive')
+
+
 OPTIONS = {'lift', 'strict', 'mock_hardware', 'camera_renderer'}
 
 

@@ -21,6 +21,12 @@ ELSEWHERE = {
     ('../README.md', 'scripts/test'): 'it would run the tests in the tests',
     ('../CONTRIBUTING.md', 'python -m pytest test/unit'): 'it would run the tests in the tests',
     ('../CONTRIBUTING.md', 'scripts/setup'): 'test/tooling/test_setup.py',
+    ('bags.md', 'ros2 launch amr_description simulation record:='): (
+        'test/unit/bringup/test_bringup_simulation.py'
+    ),
+    ('test_your_robot.md', 'python -m pytest --ros-bag'): (
+        'test/system/testing/test_testing_failures.py'
+    ),
     ('benchmarks.md', 'scripts/bench'): 'test/ros/benchmarks/test_parts.py',
     ('benchmarks.md', 'source scripts/activate; python -m benchmarks.cycle'): (
         'test/ros/benchmarks/test_parts.py'

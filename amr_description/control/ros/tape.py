@@ -1,0 +1,94 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a process with a control loop hands to who records its messages in the process itself.
+
+A message is handed over with the bytes that are published, at the simulated time at which it is:
+none can be lost on the way, and equal runs have equal recordings.
+"""
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
+
+from amr_description.control.contracts import Input
+from amr_description.ros.cdr_padding import serialize
+
+type Sink = Callable[[bytes], None]
+"""Takes a serialized message; on any thread."""
+
+
+class Tape(Protocol):
+    """Records; all but the sinks is called on the control thread."""
+
+    def set_time(self, time: int) -> None:
+        """Give what follows a time, ns; it has jumped, where it is before the last one."""
+
+    def begin_cycle(self, time: int) -> None:
+        """Begin the messages of the end of a cycle."""
+
+    def end_cycle(self) -> None:
+        """Take note that all of a cycle was sent."""
+
+    def samples_of(self, publisher: Publisher) -> Sink | None:
+        """Return what takes the samples of cycles; None: this topic is not wanted."""
+
+    def messages_of(self, publisher: Publisher) -> Sink | None:
+        """Return what takes messages that are published now and then, likewise."""
+
+    def commands_of(self, subscription: Subscription) -> Sink | None:
+        """Return what takes the messages that a controller acts on, likewise."""
+
+
+class TapedPublisher:
+    """A publisher of messages that are published now and then; :meth:`LoopPublisher.taped`."""
+
+    def __init__(self, publisher: Publisher, *, is_latched: bool) -> None:
+        self.publisher = publisher
+        self._is_latched = is_latched
+        self._latest: Any = None
+        self._sink: Sink | None = None
+
+    def publish(self, message: Any) -> None:
+        """Publish now, and record."""
+        if self._is_latched:
+            self._latest = message
+        sink = self._sink
+        if sink is None:
+            self.publisher.publish(message)
+        else:
+            data = serialize(message)
+            sink(data)
+            self.publisher.publish(data)
+
+    def attach(self, tape: Tape | None) -> None:
+        """Record from now on, what is latched first; None: no more."""
+        self._sink = None if tape is None else tape.messages_of(self.publisher)
+        if self._sink is not None and self._latest is not None:
+            self._sink(serialize(self._latest))
+
+
+class TapedInput:
+    """An input of a controller whose commands are recorded when the controller takes them."""
+
+    def __init__(self, port: Input[Any], subscription: Subscription) -> None:
+        self.port = port
+        self._subscription = subscription
+
+    def attach(self, tape: Tape | None) -> None:
+        """Record from now on; None: no more."""
+        sink = None if tape is None else tape.commands_of(self._subscription)
+        if sink is None:
+            self.port.on_drain = None
+            return
+
+        def record(messages: list[bytes]) -> None:
+            latest = b''
+            for message in messages:
+                if message != latest:  # a client that sees no acknowledgement sends once more
+                    sink(message)
+                latest = message
+
+        self.port.on_drain = record

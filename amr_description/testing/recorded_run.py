@@ -1,0 +1,174 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+What a bag that the simulator has recorded has to be run again: robots, controllers, commands.
+
+Only a run from time 0 on can be: what a robot did before the first message is not in the bag. With
+a reset the simulator begins a new file, so each file but maybe the first one is such a run.
+"""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import String
+
+from amr_description.bag import run_description
+from amr_description.bag.reader import BagReader
+from amr_description.bag.run_description import RunDescription
+from amr_description.bag.storage import BagMessage
+from amr_description.clock import NANOSECONDS
+from amr_description.errors import BagError
+from amr_description.ros.message_types import message_type
+
+_CLOCK_PERIOD = 10_000_000
+"""ns: the simulator has a cycle at each multiple of it, and at each tick of its managers."""
+_ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
+_NOT_OF_THE_DRIVE = {_ACTIVITY, 'lifecycle_msgs/msg/TransitionEvent'}
+_HINT = (
+    "reset the simulation while it records ('ros2 service call /mujoco_sim/reset_simulation "
+    "simulation_interfaces/srv/ResetSimulation'), and take the file that begins then"
+)
+
+
+class Instant(NamedTuple):
+    """A time at which the run stops, ns, and the commands that act from then on."""
+
+    time: int
+    commands: Sequence[tuple[str, Any]]
+    """Topic and message."""
+
+
+@dataclass(frozen=True)
+class RecordedRun:
+    """A run that a bag has recorded."""
+
+    description: RunDescription
+    active: tuple[str, ...]
+    """Its controllers that are active; of all robots together."""
+    instants: tuple[Instant, ...]
+    """The last one is when controllers last ticked."""
+    messages: Mapping[str, Sequence[tuple[int, bytes]]]
+    """All that tells of the drive: topic → time, ns, and bytes of each message."""
+
+    @property
+    def seconds(self) -> float:
+        """How long it lasts."""
+        return self.instants[-1].time / NANOSECONDS
+
+    @property
+    def commands(self) -> int:
+        """How many there are."""
+        return sum(len(instant.commands) for instant in self.instants)
+
+
+class Difference(NamedTuple):
+    """Where a topic of two runs differs first."""
+
+    topic: str
+    time: int
+    """ns."""
+    unlike: int
+    """Messages that differ, or are in one run only."""
+    total: int
+
+
+def differences(first: RecordedRun, second: RecordedRun) -> list[Difference]:
+    """Return the topics whose messages are not the same, byte for byte, at the same times."""
+    found = []
+    for topic in sorted({*first.messages, *second.messages}):
+        one, other = first.messages.get(topic, ()), second.messages.get(topic, ())
+        shorter, longer = sorted((one, other), key=len)
+        unlike = [index for index, each in enumerate(shorter) if each != longer[index]]
+        unlike += range(len(shorter), len(longer))
+        if unlike:
+            found.append(Difference(topic, longer[unlike[0]][0], len(unlike), len(longer)))
+    return found
+
+
+def read_run(path: Path) -> RecordedRun:
+    """
+    Return the run of a bag, a folder or one of its files; of a bag with resets the last one.
+
+    Raises BagError: the simulator has not recorded it, or it cannot be run again.
+    """
+    with BagReader(path) as reader:
+        files = reader.file_paths
+    with BagReader(files[-1]) as reader:
+        types = {name: topic.type for name, topic in reader.topics.items()}
+        messages = list(reader.messages())
+    if run_description.TOPIC not in types:
+        raise BagError(
+            f'{path} is not recorded by the simulator: {run_description.TOPIC} is not in it; '
+            "record by the parameter 'record' of mujoco_sim"
+        )
+    return _run_of(files[-1], types, messages)
+
+
+def _run_of(file: Path, types: Mapping[str, str], messages: Sequence[BagMessage]) -> RecordedRun:
+    clock = [each.log_time for each in messages if each.topic == '/clock']
+    if not clock:
+        raise BagError(f'{file}: no time has passed in it, or /clock was not recorded')
+    if clock[0]:
+        raise BagError(
+            f'{file} begins at {clock[0] / NANOSECONDS:g} s of simulated time, and what was '
+            f'before is not in it; {_HINT}'
+        )
+    for each in messages:
+        is_change = each.topic == run_description.TOPIC or types[each.topic] == _ACTIVITY
+        if each.log_time and is_change:
+            raise BagError(
+                f'{file}: at {each.log_time / NANOSECONDS:g} s robots were spawned or controllers '
+                f'switched, which is not repeated; {_HINT}'
+            )
+    texts = [each.data for each in messages if each.topic == run_description.TOPIC]
+    description = run_description.from_text(deserialize_message(texts[-1], String).data)
+    if not description.robots:
+        raise BagError(f'{file}: there is no robot in it')
+    left_out = {topic for topic, kind in types.items() if kind in _NOT_OF_THE_DRIVE}
+    left_out.add(run_description.TOPIC)
+    told: dict[str, list[tuple[int, bytes]]] = {}
+    for each in messages:
+        if each.topic not in left_out:
+            told.setdefault(each.topic, []).append((each.log_time, each.data))
+    return RecordedRun(
+        description,
+        _active(types, messages),
+        _instants(description, types, clock, messages),
+        told,
+    )
+
+
+def _active(types: Mapping[str, str], messages: Sequence[BagMessage]) -> tuple[str, ...]:
+    """Return the names of active controllers."""
+    last = {each.topic: each.data for each in messages if types[each.topic] == _ACTIVITY}
+    names: dict[str, None] = {}
+    for data in last.values():
+        activity = deserialize_message(data, message_type(_ACTIVITY))
+        for each in activity.controllers:
+            if each.state.label == 'active':
+                names[each.name] = None
+    return tuple(names)
+
+
+def _instants(
+    description: RunDescription,
+    types: Mapping[str, str],
+    clock: Sequence[int],
+    messages: Sequence[BagMessage],
+) -> tuple[Instant, ...]:
+    commands: dict[int, list[tuple[str, Any]]] = {}
+    for each in messages:
+        if each.topic in description.commands:
+            message = deserialize_message(each.data, message_type(types[each.topic]))
+            commands.setdefault(each.log_time, []).append((each.topic, message))
+    # Where a step has ended between two cycles there was one more.
+    usual = Counter(b - a for a, b in pairwise(clock)).most_common(1)
+    period = usual[0][0] if usual and usual[0][0] else _CLOCK_PERIOD
+    stops = {time for time in clock if time % period and time % _CLOCK_PERIOD}
+    times = sorted({*stops, *commands, clock[-1]})
+    return tuple(Instant(time, commands.get(time, ())) for time in times)

@@ -1,0 +1,133 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``replay``: drives a recorded run of the simulator again, and compares every message.
+
+::
+
+    ros2 run amr_description replay drive            # a bag, or one of its files
+    ros2 run amr_description replay drive -o again   # what is published now is kept
+
+The robots of the bag are simulated anew, in lock-step and in a ROS domain of their own; each
+command acts at the simulated time at which it did. So all that the simulator publishes is the
+same, byte for byte. Meshes, worlds from files and third-party controllers have to be where they
+were.
+
+Exit codes: 0: it is the same; 1: it is not, or cannot be run; 2: wrong options.
+"""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+import sys
+import tempfile
+from typing import Any
+
+from amr_description.clock import NANOSECONDS
+from amr_description.errors import AmrError, BagError
+from amr_description.model.controller_files import declared_controllers, manager_of
+from amr_description.model.frames import Transform
+from amr_description.model.urdf import parse as parse_urdf
+from amr_description.testing.recorded_run import differences, read_run, RecordedRun
+from amr_description.testing.simulation import Simulation
+from amr_description.text import quote_all
+
+
+def simulation_of(run: RecordedRun, folder: Path, **options: Any) -> Simulation:
+    """
+    Return a simulation of the robots of a run, for :meth:`Simulation.replay`.
+
+    Args:
+        run: From a bag.
+        folder: For the parameter file of the controllers, as long as the simulation runs.
+        **options: Further arguments of :class:`Simulation`.
+
+    Raises:
+        BagError: Its robots are not of one description, or not each in a namespace of its name.
+    """
+    robots = run.description.robots
+    first = robots[0]
+    poses = {each.name: Transform(each.position, each.rotation) for each in robots}
+    if len(robots) > 1 or first.namespace == f'/{first.name}':
+        unlike = [each.name for each in robots if each.description != first.description]
+        unlike += [each.name for each in robots if each.namespace != f'/{each.name}']
+        if unlike:
+            raise BagError(
+                f'robots of several kinds, or namespaces, cannot be run again: {quote_all(unlike)}'
+            )
+        options['robots'] = poses
+    else:
+        options |= {'name': first.name, 'pose': poses[first.name]}
+    controllers, activate = None, []
+    if run.description.controllers:
+        controllers = folder / 'controllers.yaml'
+        controllers.write_text(run.description.controllers, encoding='utf-8')
+        model = parse_urdf(first.description)
+        namespace, manager = manager_of(model)
+        inside = first.namespace if first.namespace != '/' else namespace
+        declared = declared_controllers([controllers], inside, manager)
+        activate = [each.name for each in declared if each.name in run.active]
+    return Simulation(
+        first.description,
+        controllers,
+        activate=activate if controllers else None,
+        parameters=dict(run.description.parameters),
+        **options,
+    )
+
+
+def replay(bag: Path, output: Path | None = None, *, rtf: float = 0.0) -> list[str]:
+    """
+    Drive a recorded run again; return what differs, a line for each topic.
+
+    Args:
+        bag: A folder, or one of its files.
+        output: A folder to record to; None: what is published now is not kept.
+        rtf: Real-time factor; 0: as fast as possible.
+
+    Raises:
+        AmrError: It cannot be run again.
+    """
+    run = read_run(bag)
+    with tempfile.TemporaryDirectory(prefix='amr-replay-') as name:
+        folder = Path(name)
+        made = output or folder / 'replay'
+        with simulation_of(run, folder, rtf=rtf, record=made) as sim:
+            sim.replay(bag)
+        found = differences(run, read_run(made))
+    return [
+        f'{each.topic}: {each.unlike} of {each.total} messages differ, the first at '
+        f'{each.time / NANOSECONDS:.9g} s'
+        for each in found
+    ]
+
+
+def main(args: Sequence[str] | None = None) -> int:
+    """Run the executable; return its exit code."""
+    options = argparse.ArgumentParser(
+        prog='replay',
+        description='Drive a recorded run of the simulator again, and compare every message.',
+        allow_abbrev=False,
+    )
+    options.add_argument('bag', type=Path, help='a bag that mujoco_sim has recorded, or a file')
+    options.add_argument('-o', '--output', type=Path, help='record what is published now')
+    options.add_argument('--rtf', type=float, default=0.0, help='real-time factor; 0: fastest (0)')
+    given = options.parse_args(args)
+    try:
+        if given.output is not None and given.output.exists():
+            raise BagError(f'--output {given.output}: it is there already; another name will do')
+        run = read_run(given.bag)
+        print(f'{given.bag}: {run.seconds:.9g} s, {run.commands} commands', flush=True)
+        lines = replay(given.bag, given.output, rtf=given.rtf)
+    except AmrError as error:
+        print(f'replay: {error}', file=sys.stderr)
+        return 1
+    for line in lines:
+        print(line)
+    count = sum(map(len, run.messages.values()))
+    print('NOT equal' if lines else f'equal, byte for byte: {count} messages')
+    return 1 if lines else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

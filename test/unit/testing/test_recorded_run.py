@@ -1,0 +1,93 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which bags can be run again, and what of them differs."""
+
+from dataclasses import replace
+
+import pytest
+from support.small_bags import string
+
+from amr_description.bag.mcap_writer import BagWriter
+from amr_description.bag.run_description import RunDescription, RunRobot, TOPIC, TYPE
+from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.errors import BagError
+from amr_description.testing import replay
+from amr_description.testing.recorded_run import Difference, differences, read_run
+
+MS = 10**6
+ROBOT = RunRobot('amr', '/', (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), '<robot name="amr"/>')
+RUN = RunDescription(robots=(ROBOT,), commands=('/say',)).to_text()
+BEGIN = [(0, TOPIC, RUN), (0, '/clock', ''), (10, '/clock', '')]
+
+
+def bag(folder, *parts):
+    """Write a bag of (ms, topic, text), a file for each part; its topics are all of String."""
+    with BagWriter(folder) as writer:
+        for name in {each[1]: None for part in parts for each in part}:
+            writer.add_topic(TopicMetadata(name, TYPE))
+        for number, part in enumerate(parts):
+            if number:
+                writer.split()
+            for time, name, text in part:
+                writer.write(BagMessage(name, string(text), time * MS, time * MS))
+    return folder
+
+
+def test_the_last_part_is_run_and_stops_where_it_is_commanded(tmp_path):
+    part = [*BEGIN, (10, '/say', 'a'), (10, '/say', 'b'), (20, '/clock', ''), (20, '/heard', 'c')]
+    run = read_run(bag(tmp_path / 'bag', [(0, '/heard', 'before')], part))
+    assert [(each.time, [m.data for _, m in each.commands]) for each in run.instants] == [
+        (10 * MS, ['a', 'b']),
+        (20 * MS, []),
+    ]
+    assert (run.seconds, run.commands) == (0.02, 2)
+    assert run.messages['/heard'] == [(20 * MS, string('c'))]
+    assert TOPIC not in run.messages
+
+
+def test_it_stops_where_a_step_has_ended_between_two_cycles(tmp_path):
+    times = [0, 4, 8, 12, 13, 16, 20, 24]
+    part = [BEGIN[0], *((time, '/clock', '') for time in times)]
+    run = read_run(bag(tmp_path / 'bag', part))
+    assert [each.time // MS for each in run.instants] == [13, 24]
+
+
+@pytest.mark.parametrize(
+    ('part', 'why'),
+    [
+        (BEGIN[1:], '/mujoco_sim/run is not in it; record by the parameter'),
+        (BEGIN[:1], 'no time has passed in it'),
+        ([BEGIN[0], BEGIN[2]], r'begins at 0\.01 s .* reset the simulation while it records'),
+        ([*BEGIN, (20, TOPIC, RUN)], r'at 0\.02 s robots were spawned or controllers switched'),
+        ([(0, TOPIC, RunDescription().to_text()), *BEGIN[1:]], 'there is no robot in it'),
+    ],
+)
+def test_what_cannot_be_run_again_is_refused_with_the_reason(tmp_path, part, why):
+    with pytest.raises(BagError, match=why):
+        read_run(bag(tmp_path / 'bag', part))
+
+
+def test_a_line_says_why_a_bag_is_not_run(tmp_path, capsys):
+    with pytest.raises(SystemExit) as end:
+        replay.main(['--help'])
+    assert end.value.code == 0
+    assert capsys.readouterr().out.startswith('usage: replay [-h]')
+    assert replay.main([str(tmp_path / 'none')]) == 1
+    assert capsys.readouterr().err.startswith('replay: ')
+    taken = bag(tmp_path / 'bag', BEGIN)
+    assert replay.main([str(taken), '-o', str(taken)]) == 1
+    assert capsys.readouterr().err == (
+        f'replay: --output {taken}: it is there already; another name will do\n'
+    )
+
+
+def test_the_first_difference_of_each_topic_is_found(tmp_path):
+    run = read_run(bag(tmp_path / 'bag', [*BEGIN, (10, '/heard', 'a'), (20, '/heard', 'b')]))
+    assert differences(run, run) == []
+    other = replace(
+        run, messages={'/heard': [(10 * MS, string('a')), (20 * MS, string('c'))], '/clock': []}
+    )
+    assert differences(run, other) == [
+        Difference('/clock', 0, 2, 2),
+        Difference('/heard', 20 * MS, 1, 2),
+    ]
