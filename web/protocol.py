@@ -36,6 +36,7 @@ import typing
 from typing import Any, get_args, get_origin, Literal, TypeAliasType
 
 from amr_description.viewer import (
+    bags,
     introspection,
     navigation,
     protocol,
@@ -44,7 +45,7 @@ from amr_description.viewer import (
     states,
 )
 
-MESSAGES = (protocol, introspection, navigation, requests)
+MESSAGES = (protocol, introspection, navigation, bags, requests)
 """Modules whose dataclasses and types are in text frames, or in the heads of binary ones."""
 BINARY = (states, samples)
 """Modules of binary frames: their constants alone are for the page."""

@@ -28,6 +28,9 @@ subscribes ``/tf``, ``/tf_static``, ``/clock``,
 For each robot that a page spawns there is a ``robot_state_publisher`` in its namespace, which
 publishes its description and the transforms of its links until the robot is deleted.
 
+``ros2 run amr_description viewer --bag PATH`` shows a bag instead, a folder or a file, with a time
+line: no node, no DDS.
+
 While no page is open, nothing is subscribed. Commands are stamped with the time of ``/clock`` if
 it is published, whatever ``use_sim_time`` is.
 
@@ -36,23 +39,32 @@ opened from other hosts, at an address with a random token. It is plain HTTP: us
 trusted network.
 """
 
-from collections.abc import Sequence
+from argparse import ArgumentParser
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 import secrets
 import sys
+import threading
 
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.logging import get_logger, LoggingSeverity, set_logger_level
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from amr_description.errors import ParameterError
 from amr_description.nodes.robot_state_publisher import RobotStatePublisher
-from amr_description.parameters import parameter
+from amr_description.parameter_files import load_yaml
+from amr_description.parameters import build, parameter
+from amr_description.ros.arguments import other_arguments, parameters_in
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
+from amr_description.ros.signals import StopRequests
+from amr_description.viewer.backend import Backend
 from amr_description.viewer.ros.backend import GraphBackend
+from amr_description.viewer.ros.bag_backend import BagBackend
 from amr_description.viewer.server import DEFAULT_HOST, Server, ServerSettings
 
 
@@ -71,6 +83,11 @@ class ViewerSettings:
         read_only=True,
         minimum=0,
         maximum=65535,
+    )
+    bag_folder: str = parameter(
+        '',
+        'Folder in which pages record bags; empty: the one in which the viewer was started',
+        read_only=True,
     )
     rate: float = parameter(
         60.0, 'States a second, at most', unit='Hz', read_only=True, minimum=1.0, maximum=240.0
@@ -107,20 +124,78 @@ def view(args: list[str] | None) -> None:
 def _backend(node: Node, executor: SingleThreadedExecutor) -> GraphBackend:
     """Create the backend and its server. Raises AmrError."""
     settings = declare(node, ViewerSettings)
-    backend = GraphBackend(node, executor, node.get_logger().error, _publish_description)
-    backend.server = Server(
+    bags = Path(settings.bag_folder).expanduser().absolute()
+    backend = GraphBackend(node, executor, node.get_logger().error, _publish_description, bags)
+    domain = node.context.get_domain_id()
+    backend.server = _server(settings, backend, node.get_logger().error, domain)
+    return backend
+
+
+def _server(
+    settings: ViewerSettings, backend: Backend, log_error: Callable[[str], object], domain: int
+) -> Server:
+    """Create the server of a backend. Raises ViewerError."""
+    return Server(
         ServerSettings(
             host=settings.host,
             port=settings.port,
             rate=settings.rate,
             token=secrets.token_urlsafe(18),
             version=_version(),
-            domain=node.context.get_domain_id(),
+            domain=domain,
         ),
         backend,
-        node.get_logger().error,
+        log_error,
     )
-    return backend
+
+
+def view_bag(path: Path, args: Sequence[str]) -> None:
+    """
+    Serve the page of a bag until asked to stop.
+
+    Args:
+        path: of its folder, or of a file.
+        args: the command line, of which the parameters count.
+
+    Raises:
+        BagError: there is no bag, or it cannot be read.
+        ParameterError: a parameter is not what it has to be.
+    """
+    settings = _settings(args)
+    log = get_logger('viewer')
+    stopped = threading.Event()
+    with StopRequests(wake=stopped.set) as stop:
+        backend = BagBackend(path, log.error)
+        try:
+            backend.server = server = _server(settings, backend, log.error, 0)
+            if backend.recorded.broken:
+                log.warning(f'{backend.recorded.broken} messages of {path} are broken: left out')
+            with stop.on_stop(stopped.set):
+                server.start()
+                log.info(f'The page is at {server.url}')
+                stopped.wait()
+            server.stop()
+        finally:
+            backend.close_bag()
+
+
+def _settings(args: Sequence[str]) -> ViewerSettings:
+    """Return the parameters of a command line, without a node. Raises ParameterError."""
+    values = {}
+    for name, text in parameters_in(args).items():
+        try:
+            values[name] = load_yaml(text)
+        except ParameterError as error:
+            raise ParameterError(f'-p {name}:={text}: {error}') from error
+    return build(ViewerSettings, values)
+
+
+def _bag(args: Sequence[str]) -> Path | None:
+    """Return the bag that a command line names; None: it names none."""
+    parser = ArgumentParser('viewer', add_help=False, allow_abbrev=False)
+    parser.add_argument('--bag', type=Path)
+    found, _ = parser.parse_known_args(other_arguments(args))
+    return found.bag
 
 
 def _publish_description(namespace: str, urdf: str) -> Node:
@@ -146,8 +221,16 @@ def _version() -> str:
 def main(args: Sequence[str] | None = None) -> int:
     """Run the executable; return its exit code."""
     purpose = 'Show and drive the robots of the ROS graph, on a page in the browser.'
-    if print_help(args, 'viewer', purpose, ViewerSettings):
+    words = '[--bag PATH]'
+    notes = (
+        '--bag PATH shows a bag, a folder or a file, in place of the ROS graph: with a time line, '
+        'and without any ROS running.'
+    )
+    if print_help(args, 'viewer', purpose, ViewerSettings, words=words, notes=notes):
         return 0
+    given = sys.argv[1:] if args is None else list(args)
+    if (bag := _bag(given)) is not None:
+        return program(lambda: view_bag(bag, given), stopped=0)
     return program(lambda: view(None if args is None else list(args)), stopped=0)
 
 

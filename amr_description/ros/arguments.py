@@ -64,6 +64,16 @@ def files_in(arguments: Sequence[str]) -> list[str]:
     return [value[0] for flag, *value in _flags(arguments) if flag == '--params-file' and value]
 
 
+def parameters_in(words: Sequence[str]) -> dict[str, str]:
+    """Return the parameters that a command line sets for any node, as they are written."""
+    pairs = [
+        _remapped(value).partition(':=')
+        for flag, *value in _flags(ros_arguments(words))
+        if flag in ('-p', '--param')
+    ]
+    return {name: value for name, sign, value in pairs if sign}
+
+
 def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list[str]:
     """
     Return what of a node's ROS arguments goes on to the nodes that it makes.

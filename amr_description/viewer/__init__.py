@@ -15,10 +15,12 @@ The server of the browser page, without ROS; the only package that imports webso
 ``protocol.py``     messages to pages; ``web/src/protocol.ts`` is written from them
 ``introspection.py`` … about the ROS graph itself
 ``navigation.py``   … about who navigates, and the goals of pages
+``bags.py``         … about a bag that is shown, and one that is recorded
 ``requests.py``     messages from pages, validated
 ``states.py``       the binary frames: everything that moves
 ``real_time.py``    how fast simulated time goes
 ``samples.py``      … and what came by a topic
+``tracks.py``       what was when, in a recording
 ``pictures.py``     pictures of cameras, made small
 ``clouds.py``       point clouds, thinned
 ``http.py``         plain HTTP: the files of the page, meshes, security headers

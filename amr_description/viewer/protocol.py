@@ -8,7 +8,7 @@ page alone, are states and samples of sensors. Lengths are in m, angles in rad, 
 and axes as in REP 103 (x ahead, y left, z up), quaternions in the order x, y, z, w.
 
 Here are the messages to pages, and the heads of samples; those from pages are in ``requests.py``,
-the layout of states in ``states.py``, that of samples in ``samples.py``. These four files define
+the layout of states in ``states.py``, that of samples in ``samples.py``. These files define
 the protocol, and ``web/protocol.py`` writes the page's side from them, with the documentation:
 docstrings, and for a field the comment that begins with ``#:``, beside it or above it.
 """
@@ -21,6 +21,7 @@ import math
 from typing import Any, ClassVar, Literal
 
 from amr_description.model.frames import Quaternion, Vector
+from amr_description.viewer.bags import BagWriting, Playhead, Recording
 from amr_description.viewer.introspection import Log, Topics, Transforms
 from amr_description.viewer.navigation import GoalStatus, Navigator
 
@@ -558,6 +559,9 @@ type ServerMessage = (
     | Transforms
     | Log
     | GoalStatus
+    | Recording
+    | Playhead
+    | BagWriting
 )
 """A text frame from the node."""
 

@@ -14,6 +14,15 @@ from typing import Any, ClassVar, get_args, Literal
 from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
 from amr_description.text import quote
+from amr_description.viewer.bags import (
+    BAG_REQUESTS,
+    Playback,
+    ReadOverview,
+    ReadSeries,
+    Seek,
+    StartRecording,
+    StopRecording,
+)
 
 _LARGEST_ID = 2**53  # up to here JavaScript's numbers are exact integers
 _SHOWN = 80  # characters of a value that an error quotes
@@ -368,6 +377,12 @@ type Request = (
     | SetGoal
     | CancelGoal
     | SetInitialPose
+    | Seek
+    | Playback
+    | ReadSeries
+    | ReadOverview
+    | StartRecording
+    | StopRecording
 )
 """Messages with an ``id``, which get a reply."""
 type ClientMessage = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request
@@ -393,6 +408,7 @@ REQUESTS = (
     SetGoal,
     CancelGoal,
     SetInitialPose,
+    *BAG_REQUESTS,
 )
 MESSAGES = (Drive, Stop, PressStop, Release, SetJoints, Push, Watch, *REQUESTS)
 _BY_TYPE = {name: message for message in MESSAGES for name in message.types}
@@ -436,6 +452,12 @@ def _number(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise ValueError
     return float(value)
+
+
+def _truth(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise ValueError
+    return value
 
 
 def _speed(value: Any) -> float:
@@ -520,6 +542,7 @@ _READERS: Mapping[Any, Callable[[Any], Any]] = {
     str: _text,
     int: _whole,
     float: _number,
+    bool: _truth,
     Speed: _speed,
     Rate: _rate,
     Any: _any,

@@ -61,7 +61,16 @@ ARROWS = {
         'controllers',
         'model',
     },
-    'viewer/ros': {'viewer', 'ros', 'model', 'doctor', 'doctor/host', 'doctor/ros'},
+    'viewer/ros': {
+        'bag',  # it shows bags, and records them
+        'bag/ros',
+        'viewer',
+        'ros',
+        'model',
+        'doctor',
+        'doctor/host',
+        'doctor/ros',
+    },
     'navigation/ros': {'navigation', 'ros', 'tf2_ros', 'model'},
     # Its rules are pure; `host` reads this machine, `ros` the graph around it.
     'doctor': {'model', 'navigation'},

@@ -28,7 +28,7 @@ export interface Panel {
   pulse?(state: State): void;
 }
 
-const WORTH_SAYING: ReadonlySet<Asked['type']> = new Set(['spawn', 'delete']);
+const WORTH_SAYING: ReadonlySet<Asked['type']> = new Set(['spawn', 'delete', 'stop_recording']);
 
 /**
  * Ask the node. A no becomes a notice, and so does a yes to what cannot be seen at once.

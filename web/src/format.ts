@@ -45,6 +45,11 @@ export function clock(time: number): string {
   return `${head}:${rest}`;
 }
 
+/** Bytes: "3.4 MB". */
+export function sizeText(bytes: number): string {
+  return bytes < 1e6 ? `${Math.round(bytes / 1e3)} kB` : `${(bytes / 1e6).toFixed(bytes < 1e8 ? 1 : 0)} MB`;
+}
+
 /** A name that is not taken: this one, or its like with the least number from 1 on. */
 export function freeName(taken: readonly string[], wanted = 'robot1'): string {
   const stem = wanted.replace(/\d+$/, '');

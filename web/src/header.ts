@@ -3,6 +3,7 @@
 /** The line on top: which robot, how the connection stands, the simulator's clock and its keys. */
 import { ask, type App } from './app';
 import { button, h, icon, setText } from './dom';
+import { recordButton } from './recording/record_button';
 import { ageText } from './freshness';
 import { clock, factor, robotName, UNKNOWN } from './format';
 import type { State } from './state';
@@ -59,6 +60,7 @@ export class Header {
       this.domain,
       h('span', { class: 'grow' }),
       this.transport,
+      recordButton(app),
       h('div', { class: 'clock' }, this.time, this.real),
       h('span', { class: 'grow' }),
       theme,
@@ -66,7 +68,7 @@ export class Header {
     );
     const { store } = app;
     store.watch(['graph', 'robot'], () => this.showRobots());
-    store.watch(['link', 'hello', 'silence'], () => this.showLink());
+    store.watch(['link', 'hello', 'silence', 'recording'], () => this.showLink());
     store.watch(['simulation', 'graph', 'silence'], () => this.showSimulation());
   }
 
@@ -103,10 +105,12 @@ export class Header {
   }
 
   private showLink(): void {
-    const { link, hello } = this.app.store;
-    setText(this.link, this.app.store.silence === '' ? LINKS[link.state] : this.app.store.silence);
+    const { link, hello, recording } = this.app.store;
+    const isRecorded = link.state === 'open' && recording !== null;
+    const word = isRecorded ? 'Recording' : LINKS[link.state];
+    setText(this.link, this.app.store.silence === '' ? word : this.app.store.silence);
     this.link.dataset.tone = this.app.store.silence === '' ? TONES[link.state] : 'error';
-    setText(this.domain, hello === null ? '' : `${hello.client} · domain ${hello.domain}`);
+    setText(this.domain, hello === null || isRecorded ? '' : `${hello.client} · domain ${hello.domain}`);
     this.domain.title = hello === null ? '' : `amr_description ${hello.version}`;
   }
 

@@ -21,6 +21,7 @@ interface Parts {
 export interface SceneNumbers {
   frames: number; // drawn
   triangles: number; // of the last one
+  pose: { x: number; y: number; yaw: number } | null; // of the shown robot in `world`, m and rad
   extent: number[]; // of the robots near the first one, m: least x, y, z, then greatest
   trails: Record<string, [truth: number, odometry: number]>; // points, by robot
   sensors: Record<string, SensorNumbers>; // by topic
@@ -43,6 +44,9 @@ export interface Inspection {
   age: number | null; // ms since it came
   samples: number; // kept for the plots
   notices: number;
+  recording: string | null; // the name of the bag that is shown
+  place: number | null; // s since its begin
+  writing: string | null; // the folder of the bag that the node writes
   scene: SceneNumbers | null; // null without WebGL
 }
 
@@ -68,17 +72,21 @@ export function inspect({ app, stream, recorder, view, sensors }: Parts): void {
         samples: recorder.length,
         pictures: sensors.drawn,
         notices: store.notices.length,
-        scene: numbersOf(view.scene),
+        recording: store.recording?.name ?? null,
+        place: store.playhead?.place ?? null,
+        writing: store.writing?.active === true ? store.writing.path : null,
+        scene: numbersOf(view.scene, store.robot?.id ?? ''),
       };
     },
   };
 }
 
-function numbersOf(scene: Scene | null): SceneNumbers | null {
+function numbersOf(scene: Scene | null, robot: string): SceneNumbers | null {
   return scene === null
     ? null
     : {
         ...scene.stats(),
+        pose: scene.placeIn('world', robot),
         extent: scene.extent(),
         trails: scene.trailSizes(),
         sensors: scene.sensorNumbers(),

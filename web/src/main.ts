@@ -27,6 +27,8 @@ import { simulationPanel } from './panels/simulation';
 import { topicsPanel } from './panels/topics';
 import { PlotsPanel } from './plots/panel';
 import { Recorder } from './plots/recorder';
+import { seriesFeed, WholeRecording } from './recording/whole';
+import { timeLine } from './recording/time_line';
 import { isSample } from './samples';
 import { Sensing } from './sensors/sensing';
 import { arrange } from './shell';
@@ -42,7 +44,7 @@ const PULSE = 100; // ms between two updates of the numbers
 const store = new Store();
 const connection = new Connection(socketUrl(window.location));
 const pilot = new Pilot({
-  send: (message) => connection.send(message),
+  send: (message) => store.recording !== null || connection.send(message),
   rest: () => connection.rest(),
   now: () => performance.now(),
   after: (milliseconds, call) => {
@@ -64,7 +66,11 @@ const sensing = new Sensing(store);
 const view = new View(app, sensing);
 view.element.append(navigationBar(app, view.scene));
 const drive = new DrivePanel(app);
-const plots = new PlotsPanel(app, recorder, channels);
+view.element.append(timeLine(app));
+const series = seriesFeed(app);
+const plots = new PlotsPanel(app, recorder, {
+  plot: (...wish) => (store.recording === null ? channels : series).plot(...wish),
+});
 const sensors = sensorsPanel(app, sensing);
 const tabs = new Tabs('tab');
 for (const panel of [
@@ -98,6 +104,15 @@ store.watch(['graph', 'robot', 'model', 'diagnostics'], () => {
 });
 store.watch(['graph'], () => recorder.keep((store.graph?.robots ?? []).map(({ id }) => id)));
 store.watch(['reset'], () => recorder.clear());
+store.watch(['recording'], () => {
+  recorder.setSpan(store.recording?.length ?? 0);
+  view.scene?.setRoute([]);
+});
+new WholeRecording(app, (states) => {
+  states.forEach((state) => recorder.record(state, null));
+  view.scene?.setRoute(states);
+  plots.showWhole();
+});
 store.watch(['driver', 'robot', 'graph'], () => {
   const { driver } = store;
   pilot.setTaken(driver !== null && !driver.me);
@@ -111,7 +126,7 @@ pilot.onRefused = () => {
   store.note('warning', `${store.driver?.name} drives; STOP holds every robot, whoever drives.`);
 };
 
-listenToKeys(pilot, () => pilot.driving || store.isDriven);
+listenToKeys(pilot, () => pilot.driving || store.isDriven, () => store.recording !== null);
 listenToGamepads(pilot, (name) => drive.showPad(name));
 
 connection.onLink = (link) => {
@@ -142,6 +157,9 @@ connection.onBinary = (buffer) => {
   const state = stream.take(buffer);
   if (state !== null) {
     view.apply(state);
+    if (store.recording !== null) {
+      return; // all of it has come already
+    }
     recorder.record(state, store.simulation?.real_factor ?? null);
   }
 };

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-// Written by web/protocol.py from protocol.py, introspection.py, navigation.py, requests.py, states.py, samples.py in
+// Written by web/protocol.py from protocol.py, introspection.py, navigation.py, bags.py, requests.py, states.py, samples.py in
 // amr_description/viewer/; change those and run it: python web/protocol.py
 
 /**
@@ -11,7 +11,7 @@
  * and axes as in REP 103 (x ahead, y left, z up), quaternions in the order x, y, z, w.
  *
  * Here are the messages to pages, and the heads of samples; those from pages are in `requests.py`,
- * the layout of states in `states.py`, that of samples in `samples.py`. These four files define
+ * the layout of states in `states.py`, that of samples in `samples.py`. These files define
  * the protocol, and `web/protocol.py` writes the page's side from them, with the documentation:
  * docstrings, and for a field the comment that begins with `#:`, beside it or above it.
  */
@@ -548,7 +548,10 @@ export type ServerMessage =
   | Topics
   | Transforms
   | Log
-  | GoalStatus;
+  | GoalStatus
+  | Recording
+  | Playhead
+  | BagWriting;
 
 /**
  * Messages to pages about the ROS graph itself, and what requests about it are answered: topics,
@@ -693,6 +696,131 @@ export interface GoalStatus {
   /** times that it had to recover, as by spinning or backing up */
   recoveries: number;
 }
+
+/**
+ * Messages about bags: one that the page shows in place of a ROS graph, and one that is recorded.
+ *
+ * What a bag holds is sent as a graph is: robots, states, samples. `time` of a state is that of the
+ * last `/clock` of the bag, if it has one, else the time at which its messages were received.
+ */
+
+/** The bag that is shown. There is no graph: nothing can be driven, stopped or changed. */
+export interface Recording {
+  type: 'recording';
+  /** of its folder or file */
+  name: string;
+  path: string;
+  /** when it was begun, s since 1970, or of simulated time */
+  begin: number;
+  /** s */
+  length: number;
+  messages: number;
+  /** bytes */
+  size: number;
+}
+
+/** What time of the bag is shown, for all pages; sent while it changes. */
+export interface Playhead {
+  type: 'playhead';
+  /** s since the bag's begin */
+  place: number;
+  playing: boolean;
+  /** how many times faster than it was recorded */
+  rate: number;
+}
+
+/** What the node records at a page's wish; it goes on when the page has gone. */
+export interface BagWriting {
+  type: 'bag_writing';
+  active: boolean;
+  /** the folder of the present bag, else of the last one; empty: there was none */
+  path: string;
+  seconds: number;
+  messages: number;
+  /** bytes of the messages */
+  size: number;
+  topics: number;
+  /** messages for which there was no room */
+  lost: number;
+  /** why it has ended by itself; may be empty */
+  error: string;
+}
+
+/** Show another time of the bag. */
+export interface Seek {
+  type: 'seek';
+  id: number;
+  /** s since the bag's begin */
+  place: number;
+}
+
+/** Play the bag from where it is, from its begin when it is at the end; or pause. */
+export interface Playback {
+  type: 'playback';
+  id: number;
+  playing: boolean;
+  /** how many times faster than it was recorded; above 0, at most 100 */
+  rate: number;
+}
+
+/** Ask for a number of all messages of a topic of the bag: SeriesData. */
+export interface ReadSeries {
+  type: 'series';
+  id: number;
+  topic: string;
+  /** as `ros2 topic echo --field` has it */
+  path: string;
+}
+
+/** Ask for states of the whole bag, evenly spaced: OverviewData. */
+export interface ReadOverview {
+  type: 'overview';
+  id: number;
+}
+
+/** Have the node record topics into a new bag where it runs. */
+export interface StartRecording {
+  type: 'start_recording';
+  id: number;
+  /** none: all */
+  topics: string[];
+}
+
+/** End what the node records. */
+export interface StopRecording {
+  type: 'stop_recording';
+  id: number;
+}
+
+/**
+ * What `series` is answered, in the order in which the messages were received.
+ *
+ * Of many messages, the least and the greatest value of those in a row stand for all.
+ */
+export interface SeriesData {
+  /** f64, s, little-endian, in base64; of the header, else as states have their time */
+  stamps: string;
+  /** likewise; NaN: there is no such element */
+  values: string;
+}
+
+/** What `overview` is answered. */
+export interface OverviewData {
+  /** binary states one after the other, all of one length, in base64 */
+  states: string;
+  count: number;
+  /** the id of their layout */
+  layout: number;
+}
+
+/** What pages ask about bags. */
+export type BagRequest =
+  | Seek
+  | Playback
+  | ReadSeries
+  | ReadOverview
+  | StartRecording
+  | StopRecording;
 
 /**
  * The messages from pages, validated: a text frame is one of these, or refused in one line that says
@@ -1024,7 +1152,13 @@ export type Request =
   | SetParameter
   | SetGoal
   | CancelGoal
-  | SetInitialPose;
+  | SetInitialPose
+  | Seek
+  | Playback
+  | ReadSeries
+  | ReadOverview
+  | StartRecording
+  | StopRecording;
 
 /** A text frame from a page. */
 export type ClientMessage = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request;

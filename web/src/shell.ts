@@ -80,13 +80,16 @@ export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Sh
     setSheet(opensPanels(width, height));
   }
 
-  store.watch(['graph', 'robot', 'controllers', 'simulation'], () => {
-    const { robot, movedJoints, simulator, simulation } = store;
+  store.watch(['graph', 'robot', 'controllers', 'simulation', 'recording'], () => {
+    const { robot, recording, movedJoints, simulator, simulation } = store;
     body.classList.toggle('still', isStill(store));
     body.classList.toggle('armed', movedJoints.size > 0); // its joints want a STOP
     body.classList.toggle('paused', simulation?.state === 'paused');
     tabs.setHidden('simulation', robot !== null && simulator === null);
     tabs.setHidden('control', robot !== null && robot.manager === null);
+    for (const id of ['health', 'parameters', 'graph']) {
+      tabs.setHidden(id, recording !== null); // nodes are not in a bag
+    }
     if (robot !== null) {
       const isNew = tabs.setKind(kindOf(store), hasSliders(store) ? 'joints' : 'model');
       if (isNew && hasSliders(store)) {

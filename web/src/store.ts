@@ -8,8 +8,8 @@
  */
 import { batch, effect, signal, untracked, type Signal } from '@preact/signals';
 import type {
-  Commanders, Controllers, Diagnostics, EmergencyStop, GoalStatus, Graph, Hello, Layout, LogLine, Model, Notice,
-  RobotInfo, ServerMessage, SimulationStatus, SimulatorInfo, Topics, Transforms, World,
+  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, GoalStatus, Graph, Hello, Layout, LogLine,
+  Model, Notice, Playhead, Recording, RobotInfo, ServerMessage, SimulationStatus, SimulatorInfo, Topics, Transforms, World,
 } from './protocol';
 import type { Link } from './connection';
 import { Freshness } from './freshness';
@@ -18,7 +18,7 @@ import { Freshness } from './freshness';
 export type Topic =
   | 'link' | 'hello' | 'graph' | 'model' | 'world' | 'layout' | 'simulation' | 'reset'
   | 'controllers' | 'diagnostics' | 'topics' | 'transforms' | 'log' | 'driver' | 'commanders' | 'stops' | 'goal'
-  | 'silence' | 'notice' | 'robot' | 'frame' | 'selection';
+  | 'silence' | 'notice' | 'robot' | 'frame' | 'selection' | 'recording' | 'playhead' | 'writing';
 
 export interface NoticeEntry extends Notice {
   number: number; // of this entry, which is another one's never
@@ -59,6 +59,9 @@ export class Store {
     commanders: byName<Commanders>(),
     goal: byName<GoalStatus>(),
     stops: signal<EmergencyStop>(NO_STOP),
+    recording: signal<Recording | null>(null),
+    playhead: signal<Playhead | null>(null),
+    writing: signal<BagWriting | null>(null),
     silence: signal(''),
     notice: signal<readonly NoticeEntry[]>([]),
     topics: signal<Topics | null>(null),
@@ -66,6 +69,21 @@ export class Store {
     log: signal<readonly LogLine[]>([]),
     reset: signal(0), // how often time has jumped back
   } satisfies Record<Topic, Signal<unknown>>;
+
+  /** The bag that is shown in place of a ROS graph; null: there is a graph. */
+  get recording(): Recording | null {
+    return this.cells.recording.value;
+  }
+
+  /** What time of the bag is shown. */
+  get playhead(): Playhead | null {
+    return this.cells.playhead.value;
+  }
+
+  /** What the node records; null: nothing was recorded yet. */
+  get writing(): BagWriting | null {
+    return this.cells.writing.value;
+  }
 
   get link(): Link {
     return this.cells.link.value;
@@ -355,6 +373,15 @@ export class Store {
       case 'ages':
         this.freshness.take(message, performance.now() / 1000);
         return;
+      case 'recording':
+        cells.recording.value = message;
+        return;
+      case 'playhead':
+        cells.playhead.value = message;
+        return;
+      case 'bag_writing':
+        cells.writing.value = message;
+        return;
       case 'topics':
         cells.topics.value = message;
         return;
@@ -386,6 +413,7 @@ export class Store {
     this.cells.hello.value = hello;
     this.setGraph({ type: 'graph', robots: [], simulators: [], hint: null, sensors: [], navigators: [] });
     this.cells.layout.value = null;
+    this.cells.recording.value = this.cells.playhead.value = this.cells.writing.value = null;
     this.cells.stops.value = NO_STOP;
     this.freshness.take(null, 0);
     this.cells.topics.value = null;

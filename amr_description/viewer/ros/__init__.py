@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The backend of the page's server for the robots of a ROS graph.
+The backend of the page's server for the robots of a ROS graph, or of a bag.
 
 ======================  ========================================================================
 ``backend.py``          :class:`GraphBackend`: what pages ask, and what they are sent
@@ -35,6 +35,10 @@ The backend of the page's server for the robots of a ROS graph.
 ``markers.py``          MarkerArray and /diagnostics, converted for the page
 ``service_clients.py``  services of simulators and controller managers
 ``world_change.py``     another world around the robots that are there
+``page_recorder.py``    what is recorded at a page's wish
+``bag_backend.py``      :class:`BagBackend`: a bag in place of the graph, without any node
+``recorded.py``         … what it says of robots, and where everything was when
+``bag_samples.py``      … its messages as samples, and numbers of all of them
 ======================  ========================================================================
 
 Subscriptions, publishers and clients are created and destroyed on the ROS thread, and used on the

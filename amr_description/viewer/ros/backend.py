@@ -18,6 +18,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, ViewerError
 from amr_description.model.frames import Vector
 from amr_description.viewer.backend import Answer, Hold, Watched
+from amr_description.viewer.bags import BAG_REQUESTS
 from amr_description.viewer.joint_groups import ControllerJoints, joint_groups, with_moves
 from amr_description.viewer.protocol import (
     Channel,
@@ -53,9 +54,10 @@ from amr_description.viewer.ros.goals import Goals
 from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
 from amr_description.viewer.ros.introspection import GraphMessage
 from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
+from amr_description.viewer.ros.page_recorder import PageRecorder
 from amr_description.viewer.ros.parameters import NodeParameters
 from amr_description.viewer.ros.publications import fields_of_type, Publications
-from amr_description.viewer.ros.robot import RobotConnection
+from amr_description.viewer.ros.robot import RobotConnection, still_held
 from amr_description.viewer.ros.service_clients import (
     activate_controllers,
     active_controllers,
@@ -67,7 +69,6 @@ from amr_description.viewer.ros.service_clients import (
 )
 from amr_description.viewer.ros.spawned_robots import SpawnedRobots
 from amr_description.viewer.ros.states import StateAssembler
-from amr_description.viewer.ros.stopping import lock_topic
 from amr_description.viewer.ros.world_change import change_world, Resident
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server
@@ -93,6 +94,7 @@ class GraphBackend(GraphObserver):
         publish_description: returns a node that publishes a description and the transforms of its
             links in a namespace, ``(namespace, urdf)``; for robots that pages spawn. Raises
             AmrError.
+        bags: the folder in which pages have bags recorded.
     """
 
     server: Server
@@ -103,6 +105,7 @@ class GraphBackend(GraphObserver):
         executor: Executor,
         log_error: Callable[[str], object],
         publish_description: Callable[[str, str], Node],
+        bags: Path,
     ) -> None:
         self._node = node
         self._executor = executor
@@ -120,6 +123,9 @@ class GraphBackend(GraphObserver):
             executor,
             lambda each: self.server.publish_now(each.robot, each),
             lambda call: self.server.call(call),
+        )
+        self._recorder = PageRecorder(
+            node, executor, bags, lambda each: self.server.publish('', each)
         )
         self._simulators: dict[str, SimulatorClient] = {}
         self._diagnostics = LatestDiagnostics()
@@ -143,6 +149,7 @@ class GraphBackend(GraphObserver):
         self._session_count += 1
         self._session = self._session_count
         self._executor.create_task(self._set_session)
+        self.server.publish_now('', self._recorder.status)
         self._refresher = asyncio.create_task(self._refresh_periodically())
 
     def close(self) -> None:
@@ -220,6 +227,8 @@ class GraphBackend(GraphObserver):
 
     async def handle(self, request: Request, page: str) -> Answer:
         """Carry out a request of a page."""
+        if isinstance(request, BAG_REQUESTS):
+            return Answer(await self._recorder.handle(request))
         match request:
             case Definition():
                 return Answer(request.message, fields_of_type(request.message))
@@ -346,12 +355,13 @@ class GraphBackend(GraphObserver):
         """
         Disconnect from the graph, after the server has ended; the last stops have arrived.
 
-        What is held stays so: nobody may drive because this node has ended.
+        What is held stays so: nobody may drive because this node has ended. A bag is completed.
         """
+        self._recorder.end()
         for name in sorted(self._held & self._monitor.connections.keys()):
             connection = self._monitor.connections[name]
             if connection.is_locked or connection.deactivated:
-                self._node.get_logger().warning(_still_held(connection))
+                self._node.get_logger().warning(still_held(connection))
         self._monitor.set_session(0)
         self._spawned.retain(())
 
@@ -576,17 +586,6 @@ class GraphBackend(GraphObserver):
         task = asyncio.get_running_loop().create_task(run())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
-
-
-def _still_held(connection: RobotConnection) -> str:
-    """Return what to say of a robot that STOP still holds when this node ends."""
-    robot, found = connection.found.id, []
-    if connection.is_locked:
-        release = f'ros2 topic pub -1 {lock_topic(robot)} std_msgs/msg/Bool "{{data: false}}"'
-        found.append(f'its lock holds until: {release}')
-    if connection.deactivated:
-        found.append(f'inactive: {", ".join(connection.deactivated)}')
-    return f'STOP still holds {robot}: {"; ".join(found)}'
 
 
 def _whole(rate: float) -> float:

@@ -303,6 +303,17 @@ class RobotConnection:
             self.set_timeout(self.timeout)
 
 
+def still_held(connection: RobotConnection) -> str:
+    """Return what to say of a robot that STOP still holds when this node ends."""
+    robot, found = connection.found.id, []
+    if connection.is_locked:
+        release = f'ros2 topic pub -1 {lock_topic(robot)} std_msgs/msg/Bool "{{data: false}}"'
+        found.append(f'its lock holds until: {release}')
+    if connection.deactivated:
+        found.append(f'inactive: {", ".join(connection.deactivated)}')
+    return f'STOP still holds {robot}: {"; ".join(found)}'
+
+
 def _full_name(info: TopicEndpointInfo) -> str:
     return f'{info.node_namespace.rstrip("/")}/{info.node_name}'
 

@@ -50,7 +50,7 @@ _STILL_JOINT = 0.1
 """rad/s below which a wheel is."""
 _LINEAR, _ANGULAR, _LATERAL = 7, 8, 9
 """Where an odometry has its velocities."""
-_WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
+WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
 
 class TransformTopics:
@@ -408,7 +408,7 @@ def _forget(part: str, floats: RobotFloats) -> None:
 def _write_wheels(message: InterfaceValues, floats: RobotFloats) -> None:
     floats.wheels[:] = math.nan
     for index, values in enumerate(message.values[: len(floats.wheels)]):
-        floats.wheels[index] = [values.get(name, math.nan) for name in _WHEEL_VALUES]
+        floats.wheels[index] = [values.get(name, math.nan) for name in WHEEL_VALUES]
 
 
 def _copy(values: tuple[float, ...], floats: Floats) -> None:

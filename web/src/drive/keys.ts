@@ -7,12 +7,15 @@ import type { Pilot } from './pilot';
 
 const MODIFIERS = new Set(['MetaLeft', 'MetaRight', 'ControlLeft', 'ControlRight', 'AltLeft']);
 
-/** `isDriven`: whether anybody drives anything. */
-export function listenToKeys(pilot: Pilot, isDriven: () => boolean): void {
+/** `isDriven`: whether anybody drives anything; `isOff`: whether there is nothing to drive, nor to stop. */
+export function listenToKeys(pilot: Pilot, isDriven: () => boolean, isOff: () => boolean = () => false): void {
   const down = new Set<string>();
   const tell = (): void => pilot.set('keys', down.size === 0 ? null : fromKeys(down));
 
   window.addEventListener('keydown', (event) => {
+    if (isOff()) {
+      return;
+    }
     if (event.code === 'Escape' || (event.code === 'Space' && isStop(event, isDriven()))) {
       event.preventDefault();
       pilot.stop();

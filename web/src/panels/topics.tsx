@@ -7,7 +7,8 @@ import type { App, Panel } from '../app';
 import type { TopicMessage } from '../channels';
 import { fixed, UNKNOWN } from '../format';
 import type { Endpoint, TopicInfo } from '../protocol';
-import { Empty, Facts, Section, Switch } from '../ui';
+import { startRecording } from '../recording/record_button';
+import { Button, Empty, Facts, Section, Switch } from '../ui';
 import { panelOf, type PanelProps } from './component';
 import { MessageTree, type Plotting } from './message_tree';
 import { PublishForm } from './publish_form';
@@ -50,6 +51,7 @@ function TopicList({ app, rates, plots }: ListProps) {
           value={text.value}
           onInput={({ currentTarget }) => (text.value = currentTarget.value)}
         />
+        <RecordThese app={app} topics={topics} />
         <span class="fine" title="Subscribes to all topics but those of sensors">
           rates
         </span>
@@ -71,6 +73,21 @@ function TopicList({ app, rates, plots }: ListProps) {
       {topics.length > MOST && <p class="fine">{`${topics.length - MOST} more: filter them.`}</p>}
     </>
   );
+}
+
+/** Records those that the filter leaves; all of them the button in the head of the page records. */
+function RecordThese({ app, topics }: Pick<TopicProps, 'app'> & { topics: readonly TopicInfo[] }) {
+  const { recording, writing } = app.store;
+  const isOffered = recording === null && writing !== null && topics.length > 0;
+  return isOffered ? (
+    <Button
+      icon="record"
+      kind="quiet"
+      title={`Record these ${topics.length} topics into a bag`}
+      disabled={writing.active}
+      onClick={() => startRecording(app, topics.map(({ name }) => name))}
+    />
+  ) : null;
 }
 
 function allWords({ name, kinds, publishers, subscriptions }: TopicInfo): string {
@@ -106,7 +123,7 @@ function Topic({ app, topic, open, onOpen, plots }: TopicProps) {
             pairs={[...nodePairs('Published by', publishers), ...nodePairs('Subscribed by', subscriptions)]}
           />
           {publishers.length > 0 && <Echo key={kinds.join(' ')} app={app} topic={name} plots={plots} />}
-          {kinds.length === 1 && <PublishForm app={app} topic={name} kind={kinds[0] ?? ''} />}
+          {kinds.length === 1 && app.store.recording === null && <PublishForm app={app} topic={name} kind={kinds[0] ?? ''} />}
         </div>
       )}
     </li>

@@ -25,6 +25,7 @@ export interface Shown {
   latest: number; // s
   cursor: number | null;
   isHeld: boolean;
+  playhead: number | null; // s: of a recording, the time that is shown
   faultOf: (field: Field) => string | null;
 }
 
@@ -111,8 +112,10 @@ export class Chart {
       .join(', ');
   }
 
-  private showCursor(read: Reader, { range, latest, cursor, isHeld, faultOf }: Shown): void {
+  private showCursor(read: Reader, { range, latest, cursor: hand, isHeld, playhead, faultOf }: Shown): void {
     const [from, to] = range;
+    const isSeen = playhead !== null && playhead >= from && playhead <= to;
+    const cursor = hand ?? (isSeen ? (playhead - from) / (to - from) : null);
     const time = cursor === null ? Math.min(to, latest) : from + cursor * (to - from);
     const isNow = !isHeld && cursor === null;
     const isKnown = time <= latest; // behind that, nothing has come yet

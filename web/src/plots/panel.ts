@@ -54,6 +54,7 @@ export class PlotsPanel implements Panel {
   private isSearching = false;
   private last: ReturnType<typeof setTimeout> | undefined;
   private moving = 0; // the frame that will draw
+  private now: number | null = null; // s, of the latest state of a recording
 
   constructor(
     private readonly app: App,
@@ -102,6 +103,10 @@ export class PlotsPanel implements Panel {
     });
     app.store.watch(['graph', 'robot'], () => this.arrange());
     app.store.watch(['reset'], () => this.pause(false));
+    app.store.watch(['recording'], () => {
+      this.following.follow([]); // from now on they come from elsewhere
+      this.arrange();
+    });
     app.store.watch(['link'], () => {
       if (app.store.link.state !== 'open') {
         recorder.interrupt();
@@ -114,8 +119,16 @@ export class PlotsPanel implements Panel {
     return this.isSearching ? ['topics'] : [];
   }
 
-  pulse(_state: State): void {
+  pulse({ time }: State): void {
+    this.now = this.app.store.recording === null ? null : time;
     this.draw(false);
+  }
+
+  /** All of a recording is kept now: show all of it. */
+  showWhole(): void {
+    const { first, latest } = this.extent;
+    this.view.setWhole(Math.max(1, latest - first || 0));
+    this.pause(false);
   }
 
   /** The colours changed. */
@@ -209,7 +222,7 @@ export class PlotsPanel implements Panel {
     const now = performance.now();
     for (const chart of this.shown) {
       const faultOf = (field: Field): string | null => this.following.faultOf(field);
-      const shown = { range, latest: extent.latest, cursor, isHeld, faultOf };
+      const shown = { range, latest: extent.latest, cursor, isHeld, playhead: this.now, faultOf };
       chart.show(this.read, shown, now, isUrgent);
     }
     if (!isUrgent) {

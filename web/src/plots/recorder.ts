@@ -31,9 +31,16 @@ export function wheelColumn(wheel: number, which: 'measured' | 'commanded'): num
 export class Recorder {
   private readonly records = new Map<string, Record>();
   private readonly tracks = new Map<string, Track>();
+  private span = SPAN;
 
   /** `turning`: the joints of a robot that are taken for wheels where no simulator names them. */
   constructor(private readonly turning: (robot: string) => readonly string[]) {}
+
+  /** Keep so many seconds from now on; what was kept is forgotten. */
+  setSpan(seconds: number): void {
+    this.span = Math.max(SPAN, seconds);
+    this.clear();
+  }
 
   /** Keep a state. `factor`: the real-time factor now, null if unknown. */
   record(state: State, factor: number | null): void {
@@ -49,7 +56,7 @@ export class Recorder {
   /** Keep a value of a field; NaN where the message has none. `time`: s. */
   take(field: Field, time: number, value: number): void {
     const name = nameOf(field);
-    const track = this.tracks.get(name) ?? new Track();
+    const track = this.tracks.get(name) ?? new Track(this.span);
     this.tracks.set(name, track);
     track.push(time, value);
   }
@@ -130,7 +137,7 @@ export class Recorder {
     const values = [...velocities, factor, ...speeds];
     let record = this.records.get(robot.id);
     if (record === undefined || record.wheels.join() !== names.join()) {
-      record = { wheels: names, history: new History(values.length, SPAN, SPAN * RATE) };
+      record = { wheels: names, history: new History(values.length, this.span, SPAN * RATE) };
       this.records.set(robot.id, record);
     }
     record.history.push(state.time, values);

@@ -17,21 +17,23 @@ export interface Series {
   visit(from: number, to: number, step: number, call: (time: number, value: number) => void): void;
 }
 
-export const SPAN = 300; // s kept
+export const SPAN = 300; // s kept of what comes, where nobody says otherwise
 const MOST = 1 << 16; // values kept one by one: those of SPAN at up to 218 Hz
-const BIN = SPAN / 4096; // s of which the least and the greatest value are kept, all of SPAN
+const BINS = 4096; // of each the least and the greatest value are kept, all of the span
 const MOST_OF_BINS = 1 << 14;
 const JUMP = 1; // s back that are a new beginning; less is the disorder of several publishers
 
 /**
  * A number at any rate, in memory that does not grow: the last 65 536 values one by one, and of all
- * of SPAN the least and the greatest of each BIN, so that no peak is lost and nothing is slow.
+ * of the span the least and the greatest of each of 4096 parts, so that no peak is lost and nothing is slow.
  */
 export class Track implements Series {
+  /** `span`: s kept. */
   constructor(
-    private readonly each = new Ring(MOST, SPAN),
-    private readonly bins = new Ring(MOST_OF_BINS, SPAN),
-    private readonly open = new Bin(),
+    private readonly span = SPAN,
+    private readonly each = new Ring(MOST, span),
+    private readonly bins = new Ring(MOST_OF_BINS, span),
+    private readonly open = new Bin(span / BINS),
   ) {}
 
   get length(): number {
@@ -57,12 +59,12 @@ export class Track implements Series {
     }
     const at = time < this.latest ? this.latest : time;
     this.each.push(at, value);
-    this.each.dropBefore(at - SPAN);
+    this.each.dropBefore(at - this.span);
     if (at >= this.open.end || (Number.isNaN(value) && this.open.isKnown)) {
       this.open.flush(this.bins);
     }
     this.open.take(at, value);
-    this.bins.dropBefore(at - SPAN);
+    this.bins.dropBefore(at - this.span);
   }
 
   clear(): void {
@@ -77,7 +79,7 @@ export class Track implements Series {
 
   visit(from: number, to: number, step: number, call: (time: number, value: number) => void): void {
     // Before `change` the bins are good enough, or all that there is.
-    const change = step >= BIN ? this.bins.latest : this.each.first;
+    const change = step >= this.span / BINS ? this.bins.latest : this.each.first;
     if (this.bins.length === 0 || !(from <= change)) {
       return this.each.visit(from, to, call);
     }
@@ -95,7 +97,7 @@ export class Track implements Series {
 
   /** A copy that does not change any more. */
   copy(): Track {
-    return new Track(this.each.copy(), this.bins.copy(), this.open.copy());
+    return new Track(this.span, this.each.copy(), this.bins.copy(), this.open.copy());
   }
 }
 
@@ -106,13 +108,16 @@ class Bin {
   private most = [0, -Infinity] as [time: number, value: number];
   private unknown: number | null = null; // s, since when nothing was known
 
+  /** `length`: s. */
+  constructor(private readonly length: number) {}
+
   get isKnown(): boolean {
     return this.least[1] <= this.most[1];
   }
 
   take(time: number, value: number): void {
     if (!(time < this.end)) {
-      this.end = (Math.floor(time / BIN) + 1) * BIN;
+      this.end = (Math.floor(time / this.length) + 1) * this.length;
     }
     if (Number.isNaN(value)) {
       this.unknown ??= time;
@@ -150,6 +155,6 @@ class Bin {
   }
 
   copy(): Bin {
-    return Object.assign(new Bin(), this);
+    return Object.assign(new Bin(this.length), this);
   }
 }

@@ -15,8 +15,14 @@ export class TimeView {
   /** `window`: s seen; `longest`: s that may be seen. */
   constructor(
     private seconds: number,
-    private readonly longest: number,
+    private longest: number,
   ) {}
+
+  /** See all of something that is so many seconds long; more is not to be seen. */
+  setWhole(seconds: number): void {
+    this.longest = this.seconds = seconds;
+    this.held = null;
+  }
 
   get window(): number {
     return this.seconds;

@@ -36,6 +36,7 @@ function Tools(port: ToolsPort) {
     <>
       <h2>Plots</h2>
       <select
+        class="window-of-time"
         aria-label="Window of time"
         onChange={(event) => port.setWindow(Number(event.currentTarget.value))}
       >

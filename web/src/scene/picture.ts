@@ -72,6 +72,7 @@ export class Picture {
   private tree = new FrameTree(EMPTY);
   private state: State | null = null;
   private drawn: State | null = null; // the last one that was
+  private hasRoute = false; // trails are of a whole recording
   private isWaiting = false; // for the first state of a new layout; what is drawn stays until then
 
   /** `changed`: something is there that had to be made; `failed`: it cannot be, in one line. */
@@ -149,12 +150,25 @@ export class Picture {
     this.state = state;
     this.history.add(state);
     this.isWaiting = false;
+    if (!this.hasRoute) {
+      this.goOn(state);
+    }
+    return this.sensors.expire(state.time) || differ(this.drawn, state);
+  }
+
+  /** Draw the trails of these states, and no others any more. None: those of what comes. */
+  setRoute(states: readonly State[]): void {
+    this.clearTrails();
+    states.forEach((state) => this.goOn(state));
+    this.hasRoute = states.length > 0;
+  }
+
+  private goOn(state: State): void {
     for (const robot of state.robots) {
       if (this.robots.get(robot.id)?.trails.add(robot, state.time)) {
         this.forgetAnchor(robot.id);
       }
     }
-    return this.sensors.expire(state.time) || differ(this.drawn, state);
   }
 
   setOptions(options: Partial<SceneOptions>): void {

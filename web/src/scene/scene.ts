@@ -108,6 +108,12 @@ export class Scene {
     }
   }
 
+  /** Draw the trails of all of a recording; states that come do not go on with them. */
+  setRoute(states: readonly State[]): void {
+    this.picture.setRoute(states);
+    this.invalidate();
+  }
+
   /** Take over a sample of a sensor. */
   takeSample(info: SensorInfo, sample: Sample): void {
     this.picture.setSample(info, sample);

@@ -1,0 +1,156 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Records topics at a page's wish: one bag at a time, which all pages see.
+
+It goes on when the page has gone, until a page ends it or the viewer ends; the bag is complete
+then.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+import time
+
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.timer import Timer
+
+from amr_description.bag.mcap_writer import BagWriter
+from amr_description.bag.ros.recorder import Recorder, RecorderOptions
+from amr_description.bag.topic_filter import TopicFilter
+from amr_description.errors import AmrError, ViewerError
+from amr_description.viewer.bags import BagRequest, BagWriting, StartRecording, StopRecording
+from amr_description.viewer.ros.on_thread import on_ros_thread
+
+_PERIOD = 0.25
+"""s between two looks for new topics, and two messages about what is recorded."""
+_NOTHING = BagWriting(False, '', 0.0, 0, 0, 0, 0, '')
+
+
+class PageRecorder:
+    """
+    Made on any thread; :meth:`handle` is called on the server's, :meth:`end` on the ROS thread.
+
+    Args:
+        node: subscribes.
+        executor: of the ROS thread.
+        folder: where bags are made.
+        tell: gets what is new, on the ROS thread.
+    """
+
+    def __init__(
+        self, node: Node, executor: Executor, folder: Path, tell: Callable[[BagWriting], object]
+    ) -> None:
+        self._node = node
+        self._executor = executor
+        self._folder = folder
+        self._tell = tell
+        self._writer: BagWriter | None = None
+        self._recorder: Recorder | None = None
+        self._timer: Timer | None = None
+        self._begin = 0.0
+        self.status = _NOTHING
+        """The last that was told; replaced as a whole."""
+
+    async def handle(self, request: BagRequest) -> str:
+        """Begin to record, or end that; return what was done. Raises ViewerError."""
+
+        def attempt() -> str | AmrError:
+            try:
+                match request:
+                    case StartRecording(topics=topics):
+                        return self._start(topics)
+                    case StopRecording():
+                        return self._stop()
+                    case _:
+                        raise ViewerError('no bag is shown here; `viewer --bag PATH` shows one')
+            except AmrError as error:
+                return error
+
+        done = await on_ros_thread(self._executor, attempt)
+        if isinstance(done, AmrError):
+            raise ViewerError(str(done)) from done
+        return done
+
+    # --- on the ROS thread -----------------------------------------------------------------------
+
+    def end(self) -> None:
+        """End what is recorded, if anything is."""
+        recorder, writer, timer = self._recorder, self._writer, self._timer
+        self._recorder = self._writer = self._timer = None
+        if timer is not None:
+            self._node.destroy_timer(timer)
+        if recorder is None or writer is None:
+            return
+        recorder.end()
+        status = self._status(recorder)
+        try:
+            writer.close()
+        except AmrError as error:
+            status = replace(status, error=status.error or str(error))
+        self._publish(replace(status, active=False))
+
+    def _start(self, topics: tuple[str, ...]) -> str:
+        if self._recorder is not None:
+            raise ViewerError(f'{self.status.path} is recorded already; stop that first')
+        wanted = TopicFilter(all_topics=not topics, topics=topics)
+        path = _new_folder(self._folder)
+        self._writer = BagWriter(path)
+        self._recorder = Recorder(self._node, self._writer, RecorderOptions(wanted))
+        self._begin = time.monotonic()
+        self.status = replace(_NOTHING, active=True, path=str(path))
+        self._recorder.start()
+        self._look()
+        clock = Clock(clock_type=ClockType.STEADY_TIME)  # simulated time may stand
+        self._timer = self._node.create_timer(_PERIOD, self._look, clock=clock)
+        return f'recording into {path}'
+
+    def _stop(self) -> str:
+        if self._recorder is None:
+            raise ViewerError('nothing is recorded')
+        self.end()
+        status = self.status
+        if status.error:
+            raise ViewerError(f'{status.path}: {status.error}')
+        return f'{status.path}: {status.messages} messages in {status.seconds:.0f} s'
+
+    def _look(self) -> None:
+        """Subscribe to what is new, and tell what is recorded."""
+        recorder = self._recorder
+        if recorder is None:
+            return
+        recorder.discover()
+        self._publish(self._status(recorder))
+        if recorder.error is not None:
+            self._node.get_logger().error(f'no more is recorded: {recorder.error}')
+            self.end()
+
+    def _status(self, recorder: Recorder) -> BagWriting:
+        return BagWriting(
+            True,
+            self.status.path,
+            round(time.monotonic() - self._begin, 1),
+            recorder.messages_received,
+            recorder.bytes_received,
+            len(recorder.topics),
+            sum(recorder.lost.values()),
+            str(recorder.error or ''),
+        )
+
+    def _publish(self, status: BagWriting) -> None:
+        self.status = status
+        self._tell(status)
+
+
+def _new_folder(parent: Path) -> Path:
+    """Return a folder that is not there yet, named as ``ros2 bag record`` names its bags."""
+    name = datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
+    path, number = parent / name, 1
+    while path.exists():  # as of two in one second
+        number += 1
+        path = parent / f'{name}_{number}'
+    return path

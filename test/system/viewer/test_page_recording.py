@@ -1,0 +1,155 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bags and the page, in a real browser: one that is shown, one that is recorded, one played."""
+
+from contextlib import contextmanager
+from math import cos, dist, hypot, sin
+import signal
+import time
+
+from fixtures.cli.commands import ros2, started
+import pytest
+from support.drive_bag import LENGTH, pose_at, RADIUS, write_drive
+from support.page import Page
+from support.running_programs import PATIENCE, Program
+
+from amr_description.bag.reader import BagReader
+from amr_description.testing.program import own_domain
+
+CENTRE = (0.0, RADIUS)
+"""Of the circle that is driven, m."""
+PART = (2.0, 5.0)
+"""s of the drive: where the part begins that is played, and how long it is."""
+
+
+@pytest.fixture(scope='module')
+def drive(tmp_path_factory):
+    return write_drive(tmp_path_factory.mktemp('bags') / 'drive')
+
+
+@contextmanager
+def viewer(*words, **parameters):
+    given = [f'{name}:={value}' for name, value in {'port': 0, **parameters}.items()]
+    flags = [word for each in given for word in ('-p', each)]
+    with Program.module('viewer', *words, '--ros-args', *flags) as program:
+        yield program.expect(r'The page is at (http://\S+)')[1]
+        assert program.end(signal.SIGINT) == 0
+        assert 'Traceback' not in program.output
+
+
+@pytest.fixture(scope='module')
+def bags(tmp_path_factory):
+    """Where the viewer of the graph records."""
+    return tmp_path_factory.mktemp('recorded')
+
+
+@pytest.fixture(scope='module')
+def graph_viewer(bags):
+    with own_domain(), viewer(bag_folder=bags) as url:
+        yield url
+
+
+def shown(page):
+    """Where the page shows the robot, m and rad; None: nowhere."""
+    pose = page.evaluate('amr.now.scene.pose')
+    return pose and (pose['x'], pose['y'], pose['yaw'])
+
+
+def is_at(page, seconds):
+    x, y, turn = pose_at(seconds)
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        pose = shown(page)
+        if pose is not None and dist(pose[:2], (x, y)) < 1e-3:
+            return pose[2] == pytest.approx(turn, abs=1e-3)
+        assert time.monotonic() < deadline, f'{pose} is not {(x, y)}'
+
+
+def test_a_bag_is_scrubbed_forwards_and_backwards(browser, drive):
+    with viewer('--bag', drive) as url:
+        page = browser.open(url, width=1280, height=760)
+        page.wait_until('amr.now.samples > 500')  # all of it is plotted at once
+        assert page.evaluate('amr.now.recording') == 'drive'
+        assert is_at(page, 0.0)
+        press(page, 'End')
+        assert is_at(page, LENGTH)
+        press(page, 'ArrowLeft')
+        assert is_at(page, LENGTH - 1)
+        slide(page, 3.5)
+        assert is_at(page, 3.5)
+        assert trails(page) == trails(page, after='Home')
+        press(page, 'Space', ' ')
+        page.wait_until('amr.now.place > 0.5')
+        assert not page.evaluate("document.querySelector('.stop').checkVisibility()")
+        assert page.errors == []
+        page.close()
+
+
+def press(page, code, key=None):
+    page.key_down(code, key or code)
+    page.key_up(code, key or code)
+
+
+def slide(page, seconds):
+    page.evaluate(
+        f"""(() => {{
+          const slider = document.querySelector('.time-line input');
+          slider.value = {seconds};
+          slider.dispatchEvent(new Event('input', {{ bubbles: true }}));
+        }})()"""
+    )
+
+
+def trails(page, after=None):
+    """The points of the trails; those of a recording stay as they are."""
+    if after is not None:
+        press(page, after)
+        assert is_at(page, 0.0)
+    return page.evaluate('JSON.stringify(amr.now.scene.trails)')
+
+
+def test_a_page_records_and_another_one_stops(browser, graph_viewer, bags):
+    with started('topic', 'pub', '-r', '50', '/chatter', 'std_msgs/msg/String', 'data: hello'):
+        page = browser.open(graph_viewer, width=1280, height=760)
+        page.wait_until("amr.now.link === 'open'")
+        page.click('.recorder button')
+        page.wait_until('amr.now.writing')
+        with Page(graph_viewer) as other:
+            assert other.wait(lambda: other.last('bag_writing'))['active']
+            page.close()
+            other.wait(lambda: other.last('bag_writing')['messages'] > 20)
+            refused = other.ask('start_recording', 1, topics=[])
+            assert not refused['ok']
+            assert 'is recorded already' in refused['message']
+            stopped = other.ask('stop_recording', 2)
+            assert stopped['ok'], stopped['message']
+            assert not other.last('bag_writing')['active']
+    (folder,) = bags.iterdir()
+    assert str(folder) in stopped['message']
+    with BagReader(folder) as reader:
+        assert not reader.is_rebuilt  # it was completed
+        assert sum(1 for _ in reader.messages(['/chatter'])) > 20
+
+
+def test_a_drive_that_is_trimmed_and_played_is_seen(browser, graph_viewer, drive, tmp_path):
+    begin, length = PART
+    part = tmp_path / 'part'
+    options = ('--start-offset', str(begin), '--duration', str(length))
+    assert ros2('bag', 'trim', str(drive), '-o', str(part), *options).returncode == 0
+    page = browser.open(graph_viewer, width=1280, height=760)
+    page.wait_until("amr.now.link === 'open'")
+    seen = []
+    with started('bag', 'play', str(part), '--disable-keyboard-controls') as player:
+        while player.process.poll() is None:
+            pose = shown(page)
+            if pose is not None and (not seen or pose != seen[-1]):
+                seen.append(pose)
+    assert is_at(page, begin + length)
+    page.close()
+    turns = [each[2] for each in seen]
+    assert len(seen) > 10
+    assert turns == sorted(turns)
+    assert turns[0] < pose_at(begin + 2.0)[2]
+    for x, y, turn in seen:
+        assert hypot(x - CENTRE[0], y - CENTRE[1]) == pytest.approx(RADIUS, abs=1e-3)
+        assert (x, y) == pytest.approx((RADIUS * sin(turn), RADIUS * (1 - cos(turn))), abs=1e-3)
