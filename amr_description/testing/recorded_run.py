@@ -31,7 +31,8 @@ _ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 _NOT_OF_THE_DRIVE = {_ACTIVITY, 'lifecycle_msgs/msg/TransitionEvent'}
 _HINT = (
     "reset the simulation while it records ('ros2 service call /mujoco_sim/reset_simulation "
-    "simulation_interfaces/srv/ResetSimulation'), and take the file that begins then"
+    'simulation_interfaces/srv/ResetSimulation "{scope: 3}"\', which keeps the robots), and take '
+    'the file that begins then'
 )
 
 
@@ -77,17 +78,59 @@ class Difference(NamedTuple):
     total: int
 
 
+class Delay(NamedTuple):
+    """What a recording in real time has later than time that waits has it, or not at all."""
+
+    topic: str
+    late: int
+    left_out: int
+
+
 def differences(first: RecordedRun, second: RecordedRun) -> list[Difference]:
-    """Return the topics whose messages are not the same, byte for byte, at the same times."""
+    """
+    Return the topics whose messages are not the same, byte for byte, at the same times.
+
+    Without those that are only delayed: see :func:`delays`.
+    """
     found = []
     for topic in sorted({*first.messages, *second.messages}):
         one, other = first.messages.get(topic, ()), second.messages.get(topic, ())
+        if one and _delay(topic, one, other):
+            continue
         shorter, longer = sorted((one, other), key=len)
         unlike = [index for index, each in enumerate(shorter) if each != longer[index]]
         unlike += range(len(shorter), len(longer))
         if unlike:
             found.append(Difference(topic, longer[unlike[0]][0], len(unlike), len(longer)))
     return found
+
+
+def delays(first: RecordedRun, second: RecordedRun) -> list[Delay]:
+    """
+    Return the topics whose messages are the same, but which the first has later, or not all.
+
+    In real time cameras measure in a thread, and leave pictures out for which there is no time, as
+    does a recording on a slow disk. In the second run time has to have waited for both.
+    """
+    found = []
+    for topic, one in sorted(first.messages.items()):
+        delay = _delay(topic, one, second.messages.get(topic, ()))
+        if delay is not None and (delay.late or delay.left_out):
+            found.append(delay)
+    return found
+
+
+def _delay(
+    topic: str, one: Sequence[tuple[int, bytes]], other: Sequence[tuple[int, bytes]]
+) -> Delay | None:
+    """Return how much later messages are than the same ones in ``other``; None: they differ."""
+    late, following = 0, iter(other)
+    for time, data in one:
+        began = next((begin for begin, same in following if same == data), None)
+        if began is None or time < began:
+            return None
+        late += time > began
+    return Delay(topic, late, len(other) - len(one))
 
 
 def read_run(path: Path) -> RecordedRun:

@@ -28,7 +28,7 @@ from amr_description.errors import AmrError, BagError
 from amr_description.model.controller_files import declared_controllers, manager_of
 from amr_description.model.frames import Transform
 from amr_description.model.urdf import parse as parse_urdf
-from amr_description.testing.recorded_run import differences, read_run, RecordedRun
+from amr_description.testing.recorded_run import delays, differences, read_run, RecordedRun
 from amr_description.testing.simulation import Simulation
 from amr_description.text import quote_all
 
@@ -76,14 +76,17 @@ def simulation_of(run: RecordedRun, folder: Path, **options: Any) -> Simulation:
     )
 
 
-def replay(bag: Path, output: Path | None = None, *, rtf: float = 0.0) -> list[str]:
+def replay(bag: Path, output: Path | None = None, *, rtf: float = 0.0) -> tuple[list[str], bool]:
     """
-    Drive a recorded run again; return what differs, a line for each topic.
+    Drive a recorded run again.
 
     Args:
         bag: A folder, or one of its files.
         output: A folder to record to; None: what is published now is not kept.
         rtf: Real-time factor; 0: as fast as possible.
+
+    Returns:
+        A line for each topic that differs, or was delayed; and whether none differs.
 
     Raises:
         AmrError: It cannot be run again.
@@ -94,12 +97,18 @@ def replay(bag: Path, output: Path | None = None, *, rtf: float = 0.0) -> list[s
         made = output or folder / 'replay'
         with simulation_of(run, folder, rtf=rtf, record=made) as sim:
             sim.replay(bag)
-        found = differences(run, read_run(made))
-    return [
+        again = read_run(made)
+    unlike = differences(run, again)
+    lines = [
+        f'{each.topic}: {each.late} messages were later in real time, {each.left_out} left out'
+        for each in delays(run, again)
+    ]
+    lines += [
         f'{each.topic}: {each.unlike} of {each.total} messages differ, the first at '
         f'{each.time / NANOSECONDS:.9g} s'
-        for each in found
+        for each in unlike
     ]
+    return lines, not unlike
 
 
 def main(args: Sequence[str] | None = None) -> int:
@@ -118,15 +127,15 @@ def main(args: Sequence[str] | None = None) -> int:
             raise BagError(f'--output {given.output}: it is there already; another name will do')
         run = read_run(given.bag)
         print(f'{given.bag}: {run.seconds:.9g} s, {run.commands} commands', flush=True)
-        lines = replay(given.bag, given.output, rtf=given.rtf)
+        lines, is_equal = replay(given.bag, given.output, rtf=given.rtf)
     except AmrError as error:
         print(f'replay: {error}', file=sys.stderr)
         return 1
     for line in lines:
         print(line)
     count = sum(map(len, run.messages.values()))
-    print('NOT equal' if lines else f'equal, byte for byte: {count} messages')
-    return 1 if lines else 0
+    print(f'equal, byte for byte: {count} messages' if is_equal else 'NOT equal')
+    return 0 if is_equal else 1
 
 
 if __name__ == '__main__':

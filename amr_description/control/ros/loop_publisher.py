@@ -254,6 +254,9 @@ class LoopPublisher:
 
         with self._changing_topics:
             self._taped = tuple(each for each in self._taped if not is_gone(each))
+            if self._tape is not None:
+                for publisher in publishers:
+                    self._tape.forget(publisher)
 
     def set_tape(self, tape: Tape | None) -> None:
         """Record with a tape from now on; None: no more. On the control thread."""

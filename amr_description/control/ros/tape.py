@@ -21,7 +21,7 @@ type Sink = Callable[[bytes], None]
 
 
 class Tape(Protocol):
-    """Records; all but the sinks is called on the control thread."""
+    """Records; :meth:`set_time` and the cycles are called on the control thread."""
 
     def set_time(self, time: int) -> None:
         """Give what follows a time, ns; it has jumped, where it is before the last one."""
@@ -31,6 +31,9 @@ class Tape(Protocol):
 
     def end_cycle(self) -> None:
         """Take note that all of a cycle was sent."""
+
+    def forget(self, publisher: Publisher) -> None:
+        """Keep nothing that a publisher has latched, for it is destroyed; on any thread."""
 
     def samples_of(self, publisher: Publisher) -> Sink | None:
         """Return what takes the samples of cycles; None: this topic is not wanted."""

@@ -17,6 +17,7 @@ full ends the recording, not the simulation.
 
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 import math
 from pathlib import Path
@@ -139,6 +140,11 @@ class RunRecorder:
             else:
                 self._scribe.write(items)
 
+    def forget(self, publisher: Publisher) -> None:
+        """Keep nothing that a publisher has latched, for it is destroyed."""
+        with suppress(InvalidHandle):
+            self.unlatch(publisher.topic_name)
+
     def samples_of(self, publisher: Publisher) -> Sink | None:
         """Return what takes the samples of cycles; None: this topic is not wanted."""
         topic = self._topic_of(publisher)
@@ -178,6 +184,11 @@ class RunRecorder:
         """Record a message that is there from now on, and at the beginning of each file."""
         if self._declare(topic, type_name, _LATCHED) and self._latched.get(topic) != data:
             self._add(topic, data, is_latched=True)
+
+    def unlatch(self, topic: str) -> None:
+        """Have files that begin later without the message of a topic."""
+        with self._adding:
+            self._latched.pop(topic, None)
 
     def close(self) -> int:
         """

@@ -69,6 +69,8 @@ class RunRecording:
         self._on_loop, self._time, self._describe = on_loop, time, describe
         self._has_ticked, self._is_paced = has_ticked, is_paced
         self._recorder: RunRecorder | None = None
+        self._described: set[str] = set()
+        """The topics of descriptions."""
         self.on_begin: Callable[[], None] = lambda: None
         """Called on the control thread when a recording begins."""
         node.add_on_set_parameters_callback(self._check)
@@ -107,9 +109,15 @@ class RunRecording:
         if self._recorder is None:
             return
         run = self._describe()
-        for robot in run.robots:
-            topic = f'{robot.namespace.rstrip("/")}/{_DESCRIPTION}'
-            self._recorder.latch(topic, TYPE, _message(robot.description))
+        descriptions = {
+            f'{robot.namespace.rstrip("/")}/{_DESCRIPTION}': robot.description
+            for robot in reversed(run.robots)
+        }
+        for topic in self._described - descriptions.keys():
+            self._recorder.unlatch(topic)
+        for topic, text in descriptions.items():
+            self._recorder.latch(topic, TYPE, _message(text))
+        self._described = set(descriptions)
         run = replace(run, commands=tuple(sorted(self._recorder.commands)))
         self._recorder.latch(TOPIC, TYPE, _message(run.to_text()))
 

@@ -143,6 +143,21 @@ def test_a_reset_begins_a_file_with_what_is_latched(host):
     ]
 
 
+def test_what_was_latched_by_who_is_gone_is_in_no_later_file(host):
+    host.now.publish(String(data='latched'))
+    recorder = host.record()
+    recorder.latch('/robot_description', 'std_msgs/msg/String', serialize(String(data='robot')))
+    host.cycle(10)
+    host.loop_publisher.forget((), [host.now.publisher])
+    recorder.unlatch('/robot_description')
+    host.cycle(0, 'a')
+    host.end()
+    assert host.files() == [
+        [(0, '/now', 'latched'), (0, '/robot_description', 'robot')],
+        [(0, '/said', 'a')],
+    ]
+
+
 def test_topics_are_chosen_by_their_names(host):
     host.record(regex=re.compile('/said|/heard'), exclude_regex=re.compile('/h.*'))
     host.now.publish(String(data='no'))

@@ -12,7 +12,7 @@ from amr_description.bag.run_description import RunDescription, RunRobot, TOPIC,
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
 from amr_description.testing import replay
-from amr_description.testing.recorded_run import Difference, differences, read_run
+from amr_description.testing.recorded_run import Delay, delays, Difference, differences, read_run
 
 MS = 10**6
 ROBOT = RunRobot('amr', '/', (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), '<robot name="amr"/>')
@@ -91,3 +91,15 @@ def test_the_first_difference_of_each_topic_is_found(tmp_path):
         Difference('/clock', 0, 2, 2),
         Difference('/heard', 20 * MS, 1, 2),
     ]
+    assert delays(run, other) == []
+
+
+def test_what_was_only_late_or_left_out_in_real_time_is_no_difference(tmp_path):
+    run = read_run(bag(tmp_path / 'bag', [*BEGIN, (12, '/heard', 'a'), (30, '/heard', 'c')]))
+    waited = [(10 * MS, string('a')), (20 * MS, string('b')), (30 * MS, string('c'))]
+    again = replace(run, messages={**run.messages, '/heard': waited})
+    assert differences(run, again) == []
+    assert delays(run, again) == [Delay('/heard', late=1, left_out=1)]
+    # The other way round it is one: time has waited, and there is less.
+    assert differences(again, run) == [Difference('/heard', 10 * MS, 3, 3)]
+    assert delays(again, run) == []
