@@ -40,6 +40,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``clock.py``            nanoseconds; messages of before a jump back in time
 ``text.py``             one line, quoted, shortened; the closest known word
 ``colors.py``           colors of a terminal
+``terminal.py``         the keys in what a terminal sends, and whose the terminal is
 ``streams.py``          standard streams that are closed, full, or without a reader
 ``forking.py``          an interpreter that is forked into programs, which start quicker so
 ``entry.py``            where console scripts begin: Ctrl-C is quiet while libraries are imported

@@ -8,13 +8,12 @@ from datetime import datetime
 
 from amr_description.bag.metadata import BagMetadata, TopicInformation
 from amr_description.bag.storage import BagMessage, TopicMetadata
-from amr_description.bag.topic_filter import EVENT_TOPIC, is_service_event
+from amr_description.bag.topic_filter import EVENT_TOPIC, EVENT_TYPE, is_service_event
 
 _SECOND = 10**9
 _INDENTATION = ' ' * len('Topic information: ')
 _INDENTATION_OF_SERVICES = ' ' * len('Service information: ')
 _UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
-_EVENT_TYPE = '_Event'
 _AT_TYPE_OF_EVENT = 4  # behind the header of CDR
 _KINDS_OF_EVENT = 4  # a request sent, received, a response sent, received
 
@@ -109,7 +108,7 @@ def _topic(information: TopicInformation, contents: Contents | None) -> str:
 def _service(information: TopicInformation, contents: Contents | None) -> str:
     topic = information.topic_metadata
     service = topic.name.removesuffix(EVENT_TOPIC)
-    kind = topic.type.removesuffix(_EVENT_TYPE)
+    kind = topic.type.removesuffix(EVENT_TYPE)
     return (
         f'Service: {service} | Type: {kind} | {_calls(information, contents)} | '
         f'{_share(contents, topic.name)}Serialization Format: {topic.serialization_format}'

@@ -9,7 +9,8 @@ import re
 from amr_description.errors import BagError
 
 EVENT_TOPIC = '/_service_event'
-_EVENT_TYPE = '_Event'
+EVENT_TYPE = '_Event'
+"""How the names of the types of their messages end."""
 
 
 @dataclass(frozen=True)
@@ -93,5 +94,5 @@ def is_hidden(topic: str) -> bool:
 
 def is_service_event(topic: str, type_name: str) -> bool:
     """Return whether a topic has the events of a service."""
-    is_event = '/srv/' in type_name and type_name.endswith(_EVENT_TYPE)
+    is_event = '/srv/' in type_name and type_name.endswith(EVENT_TYPE)
     return is_event and topic.endswith(EVENT_TOPIC)

@@ -7,25 +7,27 @@ from contextlib import contextmanager
 import os
 import re
 import select
+import signal
 import sys
 import termios
 import threading
 import tty
 
+from amr_description.terminal import is_in_foreground, KeyParser
+
 SPACE, UP, DOWN, RIGHT = 'SPACE', 'CURSOR_UP', 'CURSOR_DOWN', 'CURSOR_RIGHT'
-_NAMES = {b' ': SPACE, b'A': UP, b'B': DOWN, b'C': RIGHT}
-# An arrow is ESC [ letter, or ESC O letter; with other keys held down there are numbers, too.
-_TOKEN = re.compile(rb'\x1b(?:\[[0-?]*[ -/]*[@-~]|O.)?|[^\x1b]', re.DOTALL)
-_ARROW = re.compile(rb'\x1b[\[O]([ABC])')
+_NAMES = {' ': SPACE, 'A': UP, 'B': DOWN, 'C': RIGHT}
+_ARROW = re.compile(r'\x1b[\[O]([ABC])')
+_BACKGROUND_PERIOD = 0.3  # s between two looks whether the terminal is ours again
 
 
-def names_of(text: bytes) -> list[str]:
+def names_of(text: str, parser: KeyParser | None = None) -> list[str]:
     """Return the names of the keys in what a terminal has sent; others are left out."""
     found = []
-    for token in _TOKEN.findall(text):
-        arrow = _ARROW.fullmatch(token)
-        name = _NAMES.get(arrow[1] if arrow else token if token == b' ' else b'')
-        if name:
+    for event in (parser or KeyParser()).feed(text):
+        arrow = _ARROW.fullmatch(event.key)
+        name = _NAMES.get(arrow[1] if arrow else event.key if event.key == ' ' else '')
+        if name and not event.is_release:
             found.append(name)
     return found
 
@@ -35,16 +37,16 @@ def keys(bindings: Mapping[str, Callable[[], object]]) -> Iterator[bool]:
     """
     Call functions when keys are pressed, in another thread, while inside.
 
-    The settings of the terminal are restored at the end. In the background of a shell nothing is
-    read: it would stop the whole job.
+    The settings of the terminal are restored at the end. While the job is in the background of a
+    shell nothing is read: that would stop it.
 
     Args:
         bindings: The function of each key, by its name.
 
     Yields:
-        False: standard input is no terminal, so there are no keys.
+        False: there are no keys; a line on stderr says so if standard input is no terminal.
     """
-    terminal = _terminal()
+    terminal = _terminal() if bindings else None
     if terminal is None:
         yield False
         return
@@ -61,29 +63,43 @@ def keys(bindings: Mapping[str, Callable[[], object]]) -> Iterator[bool]:
         os.close(end)
         thread.join()
         os.close(ended)
-        termios.tcsetattr(terminal, termios.TCSADRAIN, settings)
+        if is_in_foreground(terminal):
+            termios.tcsetattr(terminal, termios.TCSADRAIN, settings)
 
 
 def _terminal() -> int | None:
     try:
         descriptor = sys.stdin.fileno()
-        is_ours = os.isatty(descriptor) and os.tcgetpgrp(descriptor) == os.getpgrp()
+        if os.isatty(descriptor):
+            return descriptor if is_in_foreground(descriptor) else None
     except (AttributeError, OSError, ValueError):  # closed
-        return None
-    return descriptor if is_ours else None
+        pass
+    print('stdin is not a terminal device. Keyboard handling disabled.', file=sys.stderr)
+    return None
 
 
 def _read(terminal: int, ended: int, bindings: Mapping[str, Callable[[], object]]) -> None:
+    # After Ctrl-Z and `bg` a read fails, instead of stopping the job.
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGTTIN, signal.SIGTTOU])
+    parser = KeyParser()
     while True:
-        ready, _, _ = select.select([terminal, ended], [], [])
+        is_ours = is_in_foreground(terminal)
+        sources = [terminal, ended] if is_ours else [ended]
+        ready, _, _ = select.select(sources, [], [], None if is_ours else _BACKGROUND_PERIOD)
         if ended in ready:
             return
+        if not is_ours and is_in_foreground(terminal):
+            tty.setcbreak(terminal, termios.TCSANOW)  # the shell had it in between
+        if terminal not in ready:
+            continue
         try:
-            text = os.read(terminal, 1024)
-        except OSError:  # the terminal was closed
-            return
+            text = os.read(terminal, 1024).decode(errors='replace')
+        except OSError:
+            if is_in_foreground(terminal):  # it was closed
+                return
+            continue
         if not text:
             return
-        for name in names_of(text):
+        for name in names_of(text, parser):
             if name in bindings:
                 bindings[name]()

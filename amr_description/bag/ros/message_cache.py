@@ -8,17 +8,20 @@ import threading
 
 from amr_description.bag.storage import BagMessage
 
+OVERHEAD = 200
+"""Bytes of memory that a message takes besides its data."""
+
 
 class MessageCache:
     """
-    A queue of at most so many bytes; on any threads.
+    A queue of at most so many bytes of memory; on any threads.
 
     What comes while it is full is lost, and counted: memory does not run out because a disk is
     slow. With ``keep_latest`` the oldest messages go instead, as a snapshot wants it.
     """
 
     def __init__(self, max_size: int, *, keep_latest: bool = False) -> None:
-        """``max_size``: bytes of messages; 0: no bound, as who adds also writes."""
+        """``max_size``: bytes; 0: no bound, as who adds also writes."""
         self._max_size = max_size
         self._keep_latest = keep_latest
         self._messages: deque[BagMessage] = deque()
@@ -41,13 +44,13 @@ class MessageCache:
             self._has_changed.notify()
 
     def _add(self, message: BagMessage) -> None:
-        size = len(message.data)
+        size = len(message.data) + OVERHEAD
         if self._max_size and self._size and self._size + size > self._max_size:
             if not self._keep_latest:
                 self._lost[message.topic] = self._lost.get(message.topic, 0) + 1
                 return
             while self._messages and self._size + size > self._max_size:
-                self._size -= len(self._messages.popleft().data)
+                self._size -= len(self._messages.popleft().data) + OVERHEAD
         self._messages.append(message)
         self._size += size
 

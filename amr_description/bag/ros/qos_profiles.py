@@ -11,7 +11,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
-from amr_description.bag.qos_text import QosProfile
+from amr_description.bag.qos_text import POLICIES, QosProfile
 
 
 def to_rclpy(profile: QosProfile) -> QoSProfile:
@@ -25,5 +25,18 @@ def to_rclpy(profile: QosProfile) -> QoSProfile:
         lifespan=Duration(nanoseconds=profile.lifespan),
         liveliness=LivelinessPolicy[profile.liveliness.upper()],
         liveliness_lease_duration=Duration(nanoseconds=profile.liveliness_lease_duration),
+        avoid_ros_namespace_conventions=profile.avoid_ros_namespace_conventions,
+    )
+
+
+def from_rclpy(profile: QoSProfile) -> QosProfile:
+    """Return a profile as bags have it."""
+    policies = {name: getattr(profile, name).name.lower() for name in POLICIES}
+    return QosProfile(
+        **policies,
+        depth=profile.depth,
+        deadline=profile.deadline.nanoseconds,
+        lifespan=profile.lifespan.nanoseconds,
+        liveliness_lease_duration=profile.liveliness_lease_duration.nanoseconds,
         avoid_ros_namespace_conventions=profile.avoid_ros_namespace_conventions,
     )

@@ -27,9 +27,9 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.bag.mcap_writer import BagWriter
-from amr_description.bag.qos_text import POLICIES, QosProfile
+from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.ros.message_cache import MessageCache
-from amr_description.bag.ros.qos_profiles import to_rclpy
+from amr_description.bag.ros.qos_profiles import from_rclpy, to_rclpy
 from amr_description.bag.ros.topic_types import topic_class
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.topic_filter import TopicFilter
@@ -147,12 +147,21 @@ class Recorder:
         return found
 
     def pause(self) -> None:
-        """Drop what comes."""
+        """Drop what comes; on any thread."""
         self.is_paused = True
+        self.node.get_logger().info('Pausing recording.')
 
     def resume(self) -> None:
-        """Record what comes."""
+        """Record what comes; on any thread."""
         self.is_paused = False
+        self.node.get_logger().info('Resuming recording.')
+
+    def toggle_paused(self) -> None:
+        """Pause, or go on; on any thread."""
+        if self.is_paused:
+            self.resume()
+        else:
+            self.pause()
 
     def split(self) -> None:
         """Go on in a new file."""
@@ -357,19 +366,6 @@ def adapted(offered: Iterable[QoSProfile]) -> QoSProfile:
             DurabilityPolicy.TRANSIENT_LOCAL if latched and profiles else DurabilityPolicy.VOLATILE
         ),
         liveliness=LivelinessPolicy.AUTOMATIC,
-    )
-
-
-def from_rclpy(profile: QoSProfile) -> QosProfile:
-    """Return a profile as bags have it."""
-    policies = {name: getattr(profile, name).name.lower() for name in POLICIES}
-    return QosProfile(
-        **policies,
-        depth=profile.depth,
-        deadline=profile.deadline.nanoseconds,
-        lifespan=profile.lifespan.nanoseconds,
-        liveliness_lease_duration=profile.liveliness_lease_duration.nanoseconds,
-        avoid_ros_namespace_conventions=profile.avoid_ros_namespace_conventions,
     )
 
 

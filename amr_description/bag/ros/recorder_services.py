@@ -25,30 +25,12 @@ def offer_services(recorder: Recorder) -> None:
         response.success = recorder.snapshot()
         return response
 
-    def pause() -> None:
-        recorder.pause()
-        node.get_logger().info('Pausing recording.')
-
-    def resume() -> None:
-        recorder.resume()
-        node.get_logger().info('Resuming recording.')
-
-    node.create_service(Pause, '~/pause', _doing(pause))
-    node.create_service(Resume, '~/resume', _doing(resume))
+    node.create_service(Pause, '~/pause', _doing(recorder.pause))
+    node.create_service(Resume, '~/resume', _doing(recorder.resume))
     node.create_service(IsPaused, '~/is_paused', is_paused)
     node.create_service(SplitBagfile, '~/split_bagfile', _doing(recorder.split))
     if recorder.options.snapshot_mode:
         node.create_service(Snapshot, '~/snapshot', snapshot)
-
-
-def toggle_paused(recorder: Recorder) -> None:
-    """Pause or go on; on any thread."""
-    if recorder.is_paused:
-        recorder.resume()
-        recorder.node.get_logger().info('Resuming recording.')
-    else:
-        recorder.pause()
-        recorder.node.get_logger().info('Pausing recording.')
 
 
 def split_publisher(node: Node) -> Callable[[Path, Path], None]:

@@ -11,6 +11,7 @@ from rclpy.task import Future
 from service_msgs.msg import ServiceEventInfo
 
 from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.bag.topic_filter import EVENT_TYPE
 from amr_description.bag.topic_selection import event_topic
 from amr_description.ros.message_types import service_type
 from amr_description.text import shorten
@@ -36,7 +37,7 @@ class ServiceRequests:
 
     def add(self, topic: TopicMetadata) -> None:
         """Make the client for the topic of a service's events. Raises AmrError: its type."""
-        kind = service_type(topic.type.removesuffix('_Event'))
+        kind = service_type(topic.type.removesuffix(EVENT_TYPE))
         name = topic.name.removesuffix(event_topic(''))
         self._clients[topic.name] = self._node.create_client(kind, name), kind
 

@@ -4,13 +4,12 @@
 
 from typing import Any
 
+from amr_description.bag.topic_filter import EVENT_TYPE
 from amr_description.ros.message_types import message_type, service_type
-
-_EVENT = '_Event'
 
 
 def topic_class(name: str) -> Any:
     """Return the class of a topic's type, as ``package/msg/Name``. Raises AmrError."""
-    if '/srv/' in name and name.endswith(_EVENT):
-        return service_type(name.removesuffix(_EVENT)).Event
+    if '/srv/' in name and name.endswith(EVENT_TYPE):
+        return service_type(name.removesuffix(EVENT_TYPE)).Event
     return message_type(name, 'The type of the topic')

@@ -32,6 +32,11 @@ def main(args: Namespace) -> int:
     from amr_description.bag.info_text import Contents, info_text, topic_names
     from amr_description.bag.reader import BagReader
 
+    if args.topic_name and args.verbose:
+        print(
+            "Warning! You have set both the '-t' and '-v' parameters. The '-t' parameter will be "
+            'ignored.'
+        )
     path = Path(args.bag_path)
     with BagReader(path, args.storage or None) as reader:
         if reader.is_rebuilt and path.is_dir():
@@ -40,7 +45,7 @@ def main(args: Namespace) -> int:
                 f'`ros2 bag reindex {path}` writes it',
                 file=sys.stderr,
             )
-        if args.topic_name:
+        if args.topic_name and not args.verbose:
             for name in topic_names(reader.metadata):
                 print(name)
             return 0

@@ -5,6 +5,7 @@
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, ExitStack
+from datetime import datetime
 import math
 import os
 from pathlib import Path
@@ -70,6 +71,11 @@ def _float(text: str) -> float:
         raise ArgumentTypeError(f'{text} is not the valid type (float)') from None
 
 
+def default_folder() -> str:
+    """Return the name of a bag that was given none: by the time."""
+    return datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
+
+
 def nanoseconds(seconds: float) -> int:
     """Return a time in ns, at most as large as times can be."""
     return round(min(seconds * 1e9, _LATEST))
@@ -125,14 +131,7 @@ def add_input_argument(parser: ArgumentParser, *, required: bool = False) -> Non
 
 def add_selection_arguments(parser: ArgumentParser, what: str) -> None:
     """Add the flags of :func:`selection`; ``what`` a verb does with the topics: ``play``."""
-    for name, plural in (('topic', 'topics'), ('service', 'services')):
-        parser.add_argument(
-            f'--{plural}',
-            default=[],
-            metavar=name,
-            nargs='+',
-            help=f'Space-delimited list of {plural} to {what}.',
-        )
+    _add_names(parser, '', what)
     parser.add_argument(
         '-e',
         '--regex',
@@ -147,13 +146,17 @@ def add_selection_arguments(parser: ArgumentParser, what: str) -> None:
         if what == 'play'
         else 'regular expressions to exclude topics and services.',
     )
-    for name, plural in (('topic', 'topics'), ('service', 'services')):
+    _add_names(parser, 'exclude-', what)
+
+
+def _add_names(parser: ArgumentParser, prefix: str, what: str) -> None:
+    for name in ('topic', 'service'):
         parser.add_argument(
-            f'--exclude-{plural}',
+            f'--{prefix}{name}s',
             default=[],
             metavar=name,
             nargs='+',
-            help=f'Space-delimited list of {plural} not to {what}.',
+            help=f'Space-delimited list of {name}s {"not " if prefix else ""}to {what}.',
         )
 
 

@@ -5,17 +5,12 @@
 from argparse import Namespace
 from collections.abc import Sequence
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 
 from amr_description.bag.mcap_writer import WriterOptions
 from amr_description.bag.reader import BagReader
 from amr_description.bag.rewriting import Output, rewrite, with_custom_data
-
-
-def default_folder() -> Path:
-    """Return the name of a bag that was given none: by the time, as a recorder's."""
-    return Path(datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S'))
+from amr_description.cli.bag.inputs import default_folder
 
 
 def write(readers: Sequence[BagReader], args: Namespace, output: Output) -> int:
@@ -30,7 +25,7 @@ def write(readers: Sequence[BagReader], args: Namespace, output: Output) -> int:
     Raises:
         BagError: a bag cannot be read or written.
     """
-    folder = Path(args.output) if args.output else default_folder()
+    folder = Path(args.output or default_folder())
     writer = with_custom_data(WriterOptions(preset=args.storage_preset_profile), readers)
     print_written([folder], rewrite(readers, [replace(output, folder=folder, writer=writer)]))
     return 0

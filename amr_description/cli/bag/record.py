@@ -12,10 +12,10 @@ examples:
 """
 
 from argparse import ArgumentParser, Namespace
-import datetime
 import os
 import sys
 
+from amr_description.cli.bag.inputs import default_folder
 from amr_description.cli.bag.record_arguments import add_recorder_arguments
 
 
@@ -26,8 +26,13 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def main(args: Namespace) -> int:
     """Record until Ctrl-C or SIGTERM: 0; 1 if something goes wrong."""
-    folder = args.output or datetime.datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
-    args.topics = [*args.topics_positional, *args.topics]
+    folder = args.output or default_folder()
+    if args.topics_positional:
+        print(
+            '[WARN] [ros2bag]: Positional "topics" argument deprecated. Please use optional '
+            '"--topics" argument instead.'
+        )
+        args.topics = args.topics_positional
     wrong = objection(args, folder)
     if wrong:
         print(f'[ERROR] [ros2bag]: {wrong}', file=sys.stderr)

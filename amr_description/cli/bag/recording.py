@@ -18,16 +18,13 @@ from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import overrides_from_text
 from amr_description.bag.ros.keyboard import keys, SPACE
 from amr_description.bag.ros.recorder import Recorder, RecorderOptions
-from amr_description.bag.ros.recorder_services import (
-    offer_services,
-    split_publisher,
-    toggle_paused,
-)
+from amr_description.bag.ros.recorder_services import offer_services, split_publisher
 from amr_description.bag.topic_filter import TopicFilter
 from amr_description.cli.discovery import wait_for_discovery
 from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session, Session
 from amr_description.ros.signals import StopRequested
+from amr_description.terminal import is_in_foreground
 
 _SECOND = 10**9
 _STATUS_PERIOD = 1.0  # s
@@ -84,9 +81,9 @@ def recorder_options(args: Namespace, node: Node) -> RecorderOptions:
 def _run(session: Session, recorder: Recorder, writer: BagWriter, args: Namespace) -> None:
     """Record until a signal, or until nothing can be written. Raises BagError, StopRequested."""
     log = recorder.node.get_logger()
-    bindings = {} if args.disable_keyboard_controls else {SPACE: lambda: toggle_paused(recorder)}
+    bindings = {} if args.disable_keyboard_controls else {SPACE: recorder.toggle_paused}
     with session.finishing() as is_stopping, keys(bindings) as has_keys:
-        if bindings and has_keys:
+        if has_keys:
             log.info('Press SPACE for pausing/resuming')
         log.info('Listening for topics...')
         recorder.start()
@@ -157,6 +154,8 @@ class Status:
         """Show it ``elapsed`` s after the start, if a second has gone."""
         if self._is_seen and elapsed - self._last >= _STATUS_PERIOD:
             self._last = elapsed
+            if not is_in_foreground(sys.stderr.fileno()):
+                return
             print(f'\r\x1b[K{self.text(elapsed)}', end='', file=sys.stderr, flush=True)
 
     def text(self, elapsed: float) -> str:

@@ -35,10 +35,11 @@ import time
 from rclpy.utilities import remove_ros_args
 
 from amr_description.errors import AmrError
-from amr_description.nodes.teleop_twist_keyboard.keyboard import CTRL_C, CTRL_Z, Keyboard, KeyEvent
+from amr_description.nodes.teleop_twist_keyboard.keyboard import Keyboard
 from amr_description.nodes.teleop_twist_keyboard.keys import HELP, Hold, Teleop
 from amr_description.nodes.teleop_twist_keyboard.node import TeleopTwistKeyboard
 from amr_description.ros.runtime import argument_errors, program, ros, spinning
+from amr_description.terminal import CTRL_C, CTRL_Z, KeyEvent
 
 _STDIN = 0  # sys.stdin is None where it was closed
 _CHECK_PERIOD = 0.5  # s between two checks for new subscriptions; each takes 0.1 ms

@@ -100,7 +100,7 @@ class TeleopTwistKeyboard(PollingNode):
         self._announced: bool | None = None
         self._printed: set[str] = set()
         self._seeks_listeners = True
-        self._was_lonely = False  # and said so: it says, too, when that is over
+        self._said_no_listener = False  # it says, too, when there is one
 
     @property
     def alternative(self) -> str:
@@ -121,7 +121,7 @@ class TeleopTwistKeyboard(PollingNode):
             self._change_type(wants_stamped(found, otherwise=self._is_stamped))
         lines = warnings(topic, found, stamped=self._is_stamped)
         is_news = self._announced != self._is_stamped
-        is_asked = self._is_automatic or self._was_lonely
+        is_asked = self._is_automatic or self._said_no_listener
         if is_asked and is_news and is_wanted(found, self._is_stamped):
             self._announced = self._is_stamped
             lines.insert(0, choice(topic, found, stamped=self._is_stamped))
@@ -144,7 +144,7 @@ class TeleopTwistKeyboard(PollingNode):
         return [self._nobody(others)] if others else []
 
     def _nobody(self, others: Sequence[str]) -> str:
-        self._was_lonely = True
+        self._said_no_listener = True
         return nobody(self._commands.topic_name, others, stamped=self._is_stamped)
 
     def publish(self, velocity: Velocity) -> None:

@@ -32,7 +32,7 @@ from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
 from amr_description.bag.ros import recorder
-from amr_description.bag.ros.message_cache import MessageCache
+from amr_description.bag.ros.message_cache import MessageCache, OVERHEAD
 from amr_description.bag.ros.recorder import adapted, Recorder, RecorderOptions
 from amr_description.bag.ros.recorder_services import offer_services, split_publisher
 from amr_description.bag.storage import BagMessage
@@ -353,7 +353,7 @@ def test_types_that_are_not_here_are_said_once(tmp_path):
 
 
 def test_cache_loses_what_has_no_room_and_counts_it():
-    cache = MessageCache(25)
+    cache = MessageCache(25 + 2 * OVERHEAD)  # room for two
     for n in range(4):
         cache.add(BagMessage('/a', b'x' * 10, n, n))
     assert [each.log_time for each in cache.take()] == [0, 1]
@@ -363,7 +363,7 @@ def test_cache_loses_what_has_no_room_and_counts_it():
 
 
 def test_cache_that_keeps_the_latest():
-    cache = MessageCache(25, keep_latest=True)
+    cache = MessageCache(25 + 2 * OVERHEAD, keep_latest=True)
     for n in range(4):
         cache.add(BagMessage('/a', b'x' * 10, n, n))
     assert [each.log_time for each in cache.take()] == [2, 3]

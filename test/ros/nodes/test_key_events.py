@@ -5,13 +5,8 @@
 from hypothesis import example, given, strategies as st
 import pytest
 
-from amr_description.nodes.teleop_twist_keyboard.keyboard import (
-    CTRL_C,
-    CTRL_Z,
-    KeyEvent,
-    KeyParser,
-)
 from amr_description.nodes.teleop_twist_keyboard.keys import MOVES, SPEEDS
+from amr_description.terminal import CTRL_C, CTRL_Z, KeyEvent, KeyParser
 
 BOUND = {*MOVES, *SPEEDS}
 

@@ -4,7 +4,6 @@
 
 import pytest
 
-from amr_description.nodes.teleop_twist_keyboard.keyboard import CTRL_Z
 from amr_description.nodes.teleop_twist_keyboard.keys import (
     HELP,
     Hold,
@@ -13,6 +12,7 @@ from amr_description.nodes.teleop_twist_keyboard.keys import (
     Teleop,
     Velocity,
 )
+from amr_description.terminal import CTRL_Z
 
 REST = Velocity()
 CONTROLLER_TIMEOUT = 0.5  # s, of diff_drive_controller

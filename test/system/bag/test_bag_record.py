@@ -16,14 +16,16 @@ from support.running_programs import PATIENCE, Program
 
 from amr_description.bag.reader import BagReader
 
-CHATTER = ('topic', 'pub', '-r', '50', '/chatter', 'std_msgs/msg/String', 'data: hello')
+# Nobody reads what it prints meanwhile: a line a second does not fill the pipe.
+RATE = ('-r', '50', '-p', '50')
+CHATTER = ('topic', 'pub', *RATE, '/chatter', 'std_msgs/msg/String', 'data: hello')
 
 
 @pytest.fixture(scope='module', autouse=True)
 def chatter():
     """Somebody who publishes."""
     with started(*CHATTER) as program:
-        program.expect('publishing #1')
+        program.expect('publishing #50')
         yield
 
 
@@ -90,9 +92,14 @@ def test_whenever_it_is_killed_what_is_left_is_read(tmp_path, rounds):
             time.sleep(random.uniform(0, 2.5))  # noqa: S311 - any moment
             assert program.end(signal.SIGKILL) == -signal.SIGKILL
         with BagReader(bag) as reader:
-            times = [message.log_time for message in reader.messages(['/chatter'])]
-            assert times == sorted(times)
-            assert len(times) == reader.metadata.message_count - others(reader)
+            files = reader.file_paths
+            assert len([*reader.messages()]) == reader.metadata.message_count
+        # A reader puts the messages of a bag in order, but here are those of each file.
+        times = []
+        for file in files:
+            with BagReader(file) as reader:
+                times += [message.log_time for message in reader.messages(['/chatter'])]
+        assert times == sorted(times)
 
 
 def test_what_was_latched_before_there_was_a_time_is_recorded(tmp_path):
@@ -113,9 +120,32 @@ def test_what_was_latched_before_there_was_a_time_is_recorded(tmp_path):
     assert message.log_time == 7 * 10**9
 
 
-def others(reader):
-    topics = reader.metadata.topics_with_message_count
-    return sum(each.message_count for each in topics if each.topic_metadata.name != '/chatter')
+def test_in_the_background_of_a_shell_it_goes_on(tmp_path):
+    """Keys are the shell's then; after `fg` they are the recorder's again."""
+    words = f'-m amr_description.cli ros2 bag record -a -o {tmp_path / "bag"}'
+    bash = ['bash', '--norc', '--noediting', '-i']
+    with Program(*bash, terminal=True, env={**environment(), 'PS1': 'prompt> '}) as shell:
+        shell.expect('prompt> ')
+        shell.type(f'{sys.executable} {words}\n')
+        shell.expect("Subscribed to topic '/chatter'")
+        shell.type('\x1a')
+        place = shell.expect(r'Stopped[^\n]*\nprompt> ').end()
+        shell.type('bg\n')
+        place = shell.expect(r'&\r?\n(.*\n)*?.*prompt> ', place).end()
+        shell.type('echo a key\n')
+        place = shell.expect('a key\r\nprompt> ', place).end()
+        shell.type('jobs\n')
+        place = shell.expect(r'(Running|Stopped) .*amr_description', place).end()
+        assert 'Running' in shell.output[place - 100 : place]
+        shell.type('fg\n')
+        place = shell.expect(r'\d+ s: [1-9]\d* messages of', place).end()
+        shell.type(' ')
+        place = shell.expect('Pausing recording.', place).end()
+        shell.type('\x03')
+        shell.expect('Recording stopped', place)
+        shell.type('exit\n')
+        shell.end()
+    assert count(tmp_path / 'bag') > 0
 
 
 def test_full_disk_is_one_line_and_what_was_written_plays(tmp_path):

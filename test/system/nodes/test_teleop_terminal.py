@@ -23,8 +23,8 @@ from amr_description.nodes.teleop_twist_keyboard.keyboard import (
     BEGIN_REPORTS,
     END_REPORTS,
     Keyboard,
-    KeyEvent,
 )
+from amr_description.terminal import KeyEvent
 
 IDENTITY = '\x1b[?62;4c'
 KNOWS_THE_PROTOCOL = f'\x1b[?0u{IDENTITY}'

@@ -158,6 +158,25 @@ def test_info_of_a_folder_a_file_and_what_was_interrupted(bag, capsys):
         run(info, bag, '-s', 'sqlite3')
 
 
+def test_verbose_goes_before_names(bag, capsys):
+    assert run(info, bag, '-t', '-v') == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == (
+        "Warning! You have set both the '-t' and '-v' parameters. The '-t' parameter will be "
+        'ignored.'
+    )
+    assert 'Size Contribution' in lines[-4]
+
+
+def test_topics_without_their_flag_are_warned_of(tmp_path, capsys):
+    assert run(record, '/a', '/b', '-o', tmp_path) == 1
+    assert capsys.readouterr() == (
+        '[WARN] [ros2bag]: Positional "topics" argument deprecated. Please use optional '
+        '"--topics" argument instead.\n',
+        f"[ERROR] [ros2bag]: Output folder '{tmp_path}' already exists.\n",
+    )
+
+
 STRING, EVENT = 'std_msgs/msg/String', 'std_srvs/srv/Empty_Event'
 
 

@@ -2,14 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bags as one recording; keys of a terminal."""
 
+import os
+from pathlib import Path
+import sys
+
 import pytest
 from support.small_bags import BEGIN, LATCHED, MS, text_of, topic, write_bag
 
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
 from amr_description.bag.recording import BagRecording, latched_depth, offer_of, SplitWatch
-from amr_description.bag.ros.keyboard import DOWN, names_of, RIGHT, SPACE, UP
+from amr_description.bag.ros.keyboard import DOWN, keys, names_of, RIGHT, SPACE, UP
 from amr_description.errors import BagError
+from amr_description.terminal import KeyParser
 
 
 @pytest.fixture
@@ -90,11 +95,29 @@ def test_files_follow_each_other_by_their_begins():
 @pytest.mark.parametrize(
     ('text', 'names'),
     [
-        (b' ', [SPACE]),
-        (b'\x1b[A\x1bOB\x1b[C', [UP, DOWN, RIGHT]),
-        (b'\x1b[1;2Aq A\x1b[D', [SPACE]),
-        (b'\x1b', []),
+        (' ', [SPACE]),
+        ('\x1b[A\x1bOB\x1b[C', [UP, DOWN, RIGHT]),
+        ('\x1b[1;2Aq A\x1b[D', [SPACE]),
+        ('\x1b', []),
     ],
 )
 def test_keys_are_found_in_what_a_terminal_sends(text, names):
     assert names_of(text) == names
+
+
+def test_without_a_terminal_there_are_no_keys(monkeypatch, capsys):
+    with Path(os.devnull).open() as stdin:
+        monkeypatch.setattr(sys, 'stdin', stdin)
+        with keys({}) as are_there:
+            assert not are_there
+        assert capsys.readouterr().err == ''
+        with keys({SPACE: print}) as are_there:
+            assert not are_there
+    line = 'stdin is not a terminal device. Keyboard handling disabled.\n'
+    assert capsys.readouterr().err == line
+
+
+def test_a_key_that_comes_in_two_pieces():
+    parser = KeyParser()
+    assert names_of('\x1b', parser) == []
+    assert names_of('[A', parser) == [UP]
