@@ -111,7 +111,7 @@ def clock(**options):
 def command(at=0, **options):
     """A command that came ``at`` ms."""
     fields = {
-        'sequence': at // 100 + 1,
+        'publisher': '/navigator',
         'age': 10 * MS,
         'is_simulated': True,
         'linear': (0.3, 0.0),

@@ -17,8 +17,8 @@ class CommandSeen:
 
     received: int
     """Of the system clock of the machine that listens."""
-    sequence: int = 0
-    """The number that its publisher gave it; 0: not known."""
+    publisher: str = ''
+    """The node that sent it; empty: not known."""
     age: int | None = None
     """
     The present minus its stamp, at reception, by ``/clock`` where there is one; None: it has no
@@ -83,21 +83,11 @@ class Commands:
 
 
 def series_of(seen: tuple[CommandSeen, ...]) -> list[list[CommandSeen]]:
-    """
-    Return the commands of each publisher, by the numbers that publishers give their messages.
-
-    Two that publish to one topic each count for themselves, so that their numbers are far apart,
-    or repeat; a number that was lost on the way does not begin a new series.
-    """
-    series: list[list[CommandSeen]] = []
+    """Return the commands of each publisher."""
+    series: dict[str, list[CommandSeen]] = {}
     for command in seen:
-        for each in series:
-            if 0 < command.sequence - each[-1].sequence <= _LARGEST_GAP:
-                each.append(command)
-                break
-        else:
-            series.append([command])
-    return series
+        series.setdefault(command.publisher, []).append(command)
+    return list(series.values())
 
 
 def median_period(seen: list[CommandSeen]) -> float:
@@ -105,6 +95,3 @@ def median_period(seen: list[CommandSeen]) -> float:
     times = [each.received for each in seen]
     gaps = sorted(later - earlier for earlier, later in zip(times, times[1:], strict=False))
     return gaps[len(gaps) // 2] / NANOSECONDS
-
-
-_LARGEST_GAP = 5

@@ -8,12 +8,12 @@ import time
 
 from rcl_interfaces.msg import Log
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.subscription import Subscription
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations.clock import Clock, StampSeen, TimeSource
-from amr_description.doctor.ros.shared import CLOCK_TOPIC, Question, received, shared_of
+from amr_description.doctor.ros.heard import HeardTopic
+from amr_description.doctor.ros.shared import CLOCK_TOPIC, Question, shared_of
 from amr_description.doctor.rules.clock import LEAST_FACTOR_SHARE
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
@@ -27,10 +27,9 @@ _SILENCE = 1.5
 _STAMP_PATIENCE = 1.5
 """s for a first message on a topic; a broken one may never come."""
 _REPORT_PATIENCE = 0.5
-_REPORT_AGE = 30 * NANOSECONDS
 _REPORT = re.compile(r'real time is not kept: .*?(Of the time goes to .*?)(?:\. Results|$)')
 _ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_BEST_EFFORT = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+_DEPTH = 5
 _FACTOR = 'real_time_factor'
 _BUCKET = 60 * NANOSECONDS
 _MOST_TOPICS = 30
@@ -69,21 +68,23 @@ class ClockProbe:
         )
         if self._publishers:
             self._shared.listen()
-        self._subscriptions: list[Subscription] = []
-        self._stamps: dict[str, dict[int, tuple[int, int]]] = {}
+        self._heard: dict[str, HeardTopic] = {}
+        self._offsets: dict[str, int] = {}
+        self._stamps: dict[str, dict[tuple[bytes, int], tuple[int, int]]] = {}
         self._listen_to_stamps()
         self._resumes = self._find_sources()
         self._factors: dict[str, Question] = {
             name: self._shared.ask(name, [_FACTOR]) for name, _ in self._resumes
         }
         self._reports: dict[str, str] = {}
-        self._asked_reports: float | None = None
+        self._log: HeardTopic | None = None
+        self._log_began = 0.0
 
     @property
     def is_done(self) -> bool:
         """Whether enough was heard."""
-        now = time.monotonic()
-        waited = now - self._began
+        self._take()
+        waited = time.monotonic() - self._began
         has_answers = all([each.is_answered() for each in self._factors.values()])
         has_stamps = all(self._stamps.values()) or waited > _STAMP_PATIENCE
         if not self._publishers:
@@ -92,21 +93,22 @@ class ClockProbe:
         is_heard = listened >= LISTEN if self._shared.ticks else listened >= _SILENCE
         if not (has_answers and has_stamps and is_heard):
             return False
-        return self._has_reports(now)
+        return self._has_reports()
 
     def observe(self) -> Clock:
         """Return what was heard."""
+        self._take()
         shared = self._shared
         stamps = tuple(
             StampSeen(
                 topic=topic,
-                publishers=self._publishers_of(topic),
+                publishers=self._publishers_of(topic, gid),
                 stamp=stamp,
                 received=arrival,
                 time=shared.time_at(arrival) if self._publishers else None,
             )
             for topic, found in self._stamps.items()
-            for stamp, arrival in found.values()
+            for (gid, _), (stamp, arrival) in found.items()
             if not self._publishers or shared.ticks
         )
         clock = Clock(
@@ -116,8 +118,9 @@ class ClockProbe:
             sources=tuple(self._source(name, resume) for name, resume in self._resumes),
             stamps=stamps,
         )
-        for subscription in self._subscriptions:
-            self._node.destroy_subscription(subscription)
+        for each in (*self._heard.values(), self._log):
+            if each is not None:
+                each.destroy()
         shared.release()
         return clock
 
@@ -144,10 +147,10 @@ class ClockProbe:
             report=self._reports.get(name, ''),
         )
 
-    def _has_reports(self, now: float) -> bool:
-        """Ask what the simulator has logged, if it is slow; return whether that has come."""
-        if self._asked_reports is not None:
-            return now - self._asked_reports > _REPORT_PATIENCE
+    def _has_reports(self) -> bool:
+        """Look what the simulator has logged, if it is slow; return whether that has come."""
+        if self._log is not None:
+            return time.monotonic() - self._log_began > _REPORT_PATIENCE
         clock = Clock(ticks=tuple(self._shared.ticks))
         asked = [
             value
@@ -157,18 +160,16 @@ class ClockProbe:
         factor = clock.factor
         if factor is None or not asked or factor >= LEAST_FACTOR_SHARE * max(asked):
             return True
-        self._asked_reports = now
-        self._subscriptions.append(
-            self._node.create_subscription(Log, '/rosout', self._on_log, _ROSOUT)
-        )
+        self._log_began = time.monotonic()
+        self._log = HeardTopic(self._node, Log, '/rosout', depth=1000, qos=_ROSOUT)
         return False
 
-    def _on_log(self, message: Log, info: dict[str, int]) -> None:
-        # What was logged long ago comes too, as the topic is transient local.
-        is_recent = received(info) - info.get('source_timestamp', 0) < _REPORT_AGE
-        if is_recent and (found := _REPORT.search(message.msg)):
-            text = found[1]
-            self._reports[f'/{message.name.replace(".", "/")}'] = text[0].lower() + text[1:]
+    def _take_log(self) -> None:
+        for message, _, _ in self._log.take() if self._log is not None else ():
+            # The latest counts: what was logged long ago comes first, as the topic is latched.
+            if found := _REPORT.search(message.msg):
+                text = found[1]
+                self._reports[f'/{message.name.replace(".", "/")}'] = text[0].lower() + text[1:]
 
     # --- stamps -------------------------------------------------------------------------------
 
@@ -183,34 +184,27 @@ class ClockProbe:
             self._listen_to(name, kinds[0])
 
     def _listen_to(self, topic: str, kind: str) -> None:
-        found = self._stamps[topic] = {}
-        offset = _HEADERS[kind]
-
-        def on_message(data: bytes, info: dict[str, int]) -> None:
-            stamp = stamp_in(data, offset)
-            if stamp is not None:
-                found[stamp // _BUCKET] = stamp, received(info)
-
         try:
-            subscription = self._node.create_subscription(
-                message_type(kind), topic, on_message, _BEST_EFFORT, raw=True
-            )
+            heard = HeardTopic(self._node, message_type(kind), topic, depth=_DEPTH)
         except (AmrError, RuntimeError):  # the type is not installed; another one is used here
-            del self._stamps[topic]
             return
-        self._subscriptions.append(subscription)
+        self._heard[topic], self._offsets[topic], self._stamps[topic] = heard, _HEADERS[kind], {}
 
-    def _publishers_of(self, topic: str) -> tuple[str, ...]:
-        """Return who publishes a topic; if some do not follow ``/clock``, those alone."""
-        node = self._node
-        found = dict.fromkeys(
-            endpoint_node(each) or 'a node' for each in node.get_publishers_info_by_topic(topic)
-        )
-        followers = {
-            endpoint_node(each) for each in node.get_subscriptions_info_by_topic(CLOCK_TOPIC)
-        }
-        others = [each for each in found if each not in followers | {*self._publishers}]
-        return tuple(others or found)
+    def _take(self) -> None:
+        """Take what has come: of each publisher and minute, the latest stamp."""
+        self._shared.hear()
+        self._take_log()
+        for topic, heard in self._heard.items():
+            for taken in heard.take_bytes():
+                stamp = stamp_in(taken.data, self._offsets[topic])
+                if stamp is not None:
+                    key = taken.gid, stamp // _BUCKET
+                    self._stamps[topic][key] = stamp, taken.received
+
+    def _publishers_of(self, topic: str, gid: bytes) -> tuple[str, ...]:
+        """Return the node of a publisher; one that is gone may be any that is there."""
+        found = self._heard[topic].publishers()
+        return (found[gid],) if found.get(gid) else tuple(dict.fromkeys(found.values()))
 
 
 def stamp_in(data: bytes, offset: int) -> int | None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Velocity commands, the parameters of the drives that take them, and locks."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 import math
 import time
@@ -10,8 +10,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.subscription import Subscription
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool
 
 from amr_description.doctor.observations.commands import (
@@ -22,27 +21,23 @@ from amr_description.doctor.observations.commands import (
     StopLock,
 )
 from amr_description.doctor.observations.graph import STAMPED_TWIST, TWIST, VELOCITY_TYPES
-from amr_description.doctor.ros.shared import (
-    CLOCK_TOPIC,
-    GET_PARAMETERS,
-    Question,
-    received,
-    shared_of,
-)
+from amr_description.doctor.ros.heard import HeardTopic
+from amr_description.doctor.ros.shared import CLOCK_TOPIC, GET_PARAMETERS, Question, shared_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import nanoseconds
 
 LISTEN = 2.5
 """s for which commands are awaited: three of once a second."""
 
-_ENOUGH, _SHORTEST = 12, 1.0
+ENOUGH, SHORTEST = 12, 1.0
 """So many commands on a topic, within s, are enough to tell how often they come, and of how
 many publishers they are."""
 _LOCK_PATIENCE = 0.7
 """s until the last message of a lock has come; of a lock that is volatile none may."""
 _MOST = 2000
 _LOCK, _BOOL = 'emergency_stop', 'std_msgs/msg/Bool'
-_QOS = QoSProfile(depth=20, reliability=ReliabilityPolicy.BEST_EFFORT)
+_DEPTH = 50
+"""Commands between two looks."""
 _LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _TYPES: dict[str, type] = {TWIST: Twist, STAMPED_TWIST: TwistStamped}
 _TIMEOUTS = ('cmd_vel_timeout', 'reference_timeout')
@@ -63,7 +58,6 @@ class CommandProbe:
         self._is_simulated = node.count_publishers(CLOCK_TOPIC) > 0
         self._topics: list[_Topic] = []
         self._locks: list[_Lock] = []
-        self._subscriptions: list[Subscription] = []
         for name, types in sorted(node.get_topic_names_and_types()):
             if {*types} & {*VELOCITY_TYPES}:
                 self._add_topic(name)
@@ -76,6 +70,7 @@ class CommandProbe:
     @property
     def is_done(self) -> bool:
         """Whether enough was heard."""
+        self._take()
         waited = time.monotonic() - self._began
         answers = [q.is_answered() for found in self._questions.values() for q in found.values()]
         if not all(answers) and waited < LISTEN:
@@ -83,18 +78,19 @@ class CommandProbe:
         if any(each.value is None for each in self._locks) and waited < _LOCK_PATIENCE:
             return False
         return waited >= LISTEN or all(
-            not each.publishers or (len(each.seen) >= _ENOUGH and waited >= _SHORTEST)
+            not each.publishers or (len(each.seen) >= ENOUGH and waited >= SHORTEST)
             for each in self._topics
         )
 
     def observe(self) -> Commands:
         """Return what was heard."""
+        self._take()
         topics = tuple(
             CommandTopic(
                 name=each.name,
                 publishers=each.publishers,
                 subscriptions=each.subscriptions,
-                seen=tuple(self._command(*one) for one in each.seen),
+                seen=tuple(self._commands(each)),
             )
             for each in self._topics
         )
@@ -107,8 +103,9 @@ class CommandProbe:
             ),
             seconds=time.monotonic() - self._began,
         )
-        for subscription in self._subscriptions:
-            self._node.destroy_subscription(subscription)
+        for heard in [*(t.heard for t in self._topics), *(k.heard for k in self._locks)]:
+            if heard is not None:
+                heard.destroy()
         self._shared.release()
         return commands
 
@@ -126,55 +123,51 @@ class CommandProbe:
             {each.topic_type for each in publishers} & {*VELOCITY_TYPES},
             key=lambda kind: kind not in wanted,
         )
-        if not offered:
-            return
-
-        def on_command(message: Any, info: dict[str, int]) -> None:
-            if len(found.seen) < _MOST:
-                number = info.get('publication_sequence_number') or 0
-                found.seen.append((message, received(info), number))
-
-        self._subscribe(_TYPES[offered[0]], name, on_command, _QOS)
+        if offered:
+            found.heard = self._listen(_TYPES[offered[0]], name, None)
 
     def _add_lock(self, name: str) -> None:
         publishers = self._node.get_publishers_info_by_topic(name)
-        if not publishers:
-            return
-        lock = _Lock(name, _names(publishers))
-        self._locks.append(lock)
-
-        def on_lock(message: Bool) -> None:
-            lock.value = message.data
-
         are_latched = all(
             each.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for each in publishers
         )
-        self._subscribe(Bool, name, on_lock, _LATCHED if are_latched else _QOS)
+        if publishers:
+            heard = self._listen(Bool, name, _LATCHED if are_latched else None)
+            self._locks.append(_Lock(name, _names(publishers), heard))
 
-    def _subscribe(
-        self, kind: type, topic: str, callback: Callable[..., None], qos: QoSProfile
-    ) -> None:
+    def _listen(self, kind: type, topic: str, qos: QoSProfile | None) -> HeardTopic | None:
         try:
-            subscription = self._node.create_subscription(kind, topic, callback, qos)
+            return HeardTopic(self._node, kind, topic, depth=_DEPTH, qos=qos)
         except RuntimeError:  # another type of it is used in this process
-            return
-        self._subscriptions.append(subscription)
+            return None
 
-    def _command(self, message: Any, arrival: int, number: int) -> CommandSeen:
-        age, twist = None, message
-        if isinstance(message, TwistStamped):
-            twist = message.twist
-            stamp = nanoseconds(message.header.stamp)
-            present = self._shared.time_at(arrival) if self._is_simulated else arrival
-            age = present - stamp if stamp and present is not None else None
-        return CommandSeen(
-            received=arrival,
-            sequence=number,
-            age=age,
-            is_simulated=self._is_simulated,
-            linear=(twist.linear.x, twist.linear.y),
-            angular=twist.angular.z,
-        )
+    def _take(self) -> None:
+        self._shared.hear()
+        for topic in self._topics:
+            if topic.heard is not None and len(topic.seen) < _MOST:
+                topic.seen += topic.heard.take()
+        for lock in self._locks:
+            for message, _, _ in lock.heard.take() if lock.heard is not None else ():
+                lock.value = message.data
+
+    def _commands(self, topic: '_Topic') -> Iterator[CommandSeen]:
+        """Yield the commands that came on a topic."""
+        publishers = topic.heard.publishers() if topic.heard is not None else {}
+        for message, received, gid in topic.seen:
+            age, twist = None, message
+            if isinstance(message, TwistStamped):
+                twist = message.twist
+                stamp = nanoseconds(message.header.stamp)
+                present = self._shared.time_at(received) if self._is_simulated else received
+                age = present - stamp if stamp and present is not None else None
+            yield CommandSeen(
+                received=received,
+                publisher=publishers.get(gid, gid.hex()),
+                age=age,
+                is_simulated=self._is_simulated,
+                linear=(twist.linear.x, twist.linear.y),
+                angular=twist.angular.z,
+            )
 
     # --- drives -------------------------------------------------------------------------------
 
@@ -210,14 +203,16 @@ class _Topic:
     name: str
     publishers: tuple[str, ...]
     subscriptions: tuple[str, ...]
-    seen: list[tuple[Any, int, int]] = field(default_factory=list)
-    """Messages, when they were received, and their numbers."""
+    heard: HeardTopic | None = None
+    seen: list[tuple[Any, int, bytes]] = field(default_factory=list)
+    """Messages, when they were received, and the gids of their publishers."""
 
 
 @dataclass(slots=True)
 class _Lock:
     name: str
     holders: tuple[str, ...]
+    heard: HeardTopic | None
     value: bool | None = None
 
 

@@ -7,8 +7,8 @@ A process that was killed stays in the graph for some seconds: what is of it on 
 left out.
 """
 
-from collections.abc import Iterable, Mapping
-from contextlib import ExitStack
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 import os
 from pathlib import Path
@@ -22,15 +22,18 @@ from amr_description.doctor.observations.graph import Endpoint, Graph, GraphNode
 from amr_description.doctor.ros.shared import GET_PARAMETERS, Question, Shared, shared_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.local_participants import processes_of
-from amr_description.ros.node_lists import NodeList, NodeLists, PREFIX, subscribe_to_node_lists
+from amr_description.ros.node_lists import PREFIX
 
 PATIENCE = 2.0
 """s that a node has to answer, by the system clock."""
 
 _FEWEST_LOOKS = 60
 """Looks for the answer meanwhile: a process that had no time to look may have missed it."""
-_LIST_PATIENCE = 1.0
-"""s until the lists of nodes have come."""
+_REACH = 0.5
+"""s until a server is reached, if it is there."""
+_MARGIN = 0.3
+"""s until a question is asked."""
+_PARAMETER_EVENTS = '/parameter_events'
 _HOST = 4
 """Bytes of a gid: vendor and host."""
 _INFINITE = 2**62
@@ -46,97 +49,80 @@ class GraphProbe:
     """Observes nodes and topics."""
 
     def begin(self, node: Node) -> None:
-        """Ask all nodes for ``use_sim_time``, and look which process each is of."""
+        """Ask all nodes for ``use_sim_time``."""
         self._node = node
+        self._own = node.get_fully_qualified_name()
         self._shared: Shared = shared_of(node)
         self._began = time.monotonic()
-        self._stack = ExitStack()
-        self._lists: NodeLists | None = self._stack.enter_context(subscribe_to_node_lists(node))
         self._questions: dict[str, Question] = {}
-        self._work: dict[int, float] = {}
-        own = node.get_fully_qualified_name()
         for service, _ in node.get_service_names_and_types():
             name = service.removesuffix(GET_PARAMETERS)
-            if name not in (service, own) and not _is_hidden(name):
+            if name not in (service, self._own) and not _is_hidden(name):
                 self._questions[name] = self._shared.ask(name, ['use_sim_time'])
+        host = self._own_host()
+        self._work = {
+            pid: _work_of(pid)
+            for name, prefix in self._announcers()
+            if name in self._questions and prefix[:_HOST] == host
+            for pid in processes_of(prefix)
+        }
 
     @property
     def is_done(self) -> bool:
-        """Whether all nodes have answered, or have had time to, and their processes are known."""
+        """Whether all nodes have answered, or have had time to."""
         waited = time.monotonic() - self._began
-        processes = self._processes()
-        for pid in {pid for pid, _ in processes.values() if pid is not None} - self._work.keys():
-            self._work[pid] = _work_of(pid)
-        answered = [question.is_answered() for question in self._questions.values()]
-        names = {_full(*each) for each in self._node.get_node_names_and_namespaces()}
-        has_lists = names <= processes.keys() or waited > _LIST_PATIENCE
-        return has_lists and (all(answered) or waited > PATIENCE + _LIST_PATIENCE)
+        open_ones = [each for each in self._questions.values() if not each.is_answered()]
+        if waited > _REACH:
+            open_ones = [each for each in open_ones if each.is_reachable()]
+        return not open_ones or waited > PATIENCE + _MARGIN
 
     def observe(self) -> Graph:
         """Return the graph."""
-        self.is_done  # noqa: B018  # takes the answers that have come since
-        ended = self._ended()
-        graph = Graph(topics=self._topics(ended), nodes=tuple(self._nodes(ended)))
-        self._stack.close()
+        host = self._own_host()
+        graph = Graph(topics=self._topics(host), nodes=tuple(self._nodes(host)))
         self._shared.release()
         return graph
 
     # --- nodes --------------------------------------------------------------------------------
 
-    def _newest(self) -> Mapping[bytes, NodeList]:
-        return self._lists.newest() if self._lists is not None else {}
-
     def _own_host(self) -> bytes | None:
         """Return what the gids of this machine begin with; None: not known."""
-        own = (self._node.get_name(), self._node.get_namespace())
-        return next((p[:_HOST] for p, each in self._newest().items() if own in each.nodes), None)
+        own = (prefix for name, prefix in self._announcers() if name == self._own)
+        return next((prefix[:_HOST] for prefix in own), None)
 
-    def _processes(self) -> dict[str, tuple[int | None, str]]:
-        """Return process and host of the nodes, by full name, of which some may have two."""
-        return {name: (pid, host) for name, pid, host in self._places()}
+    def _announcers(self) -> list[tuple[str, bytes]]:
+        """Return nodes and their participants, by the topic that every node publishes."""
+        return [
+            (endpoint_node(each) or _NAMELESS, bytes(each.endpoint_gid[:PREFIX]))
+            for each in self._node.get_publishers_info_by_topic(_PARAMETER_EVENTS)
+        ]
 
-    def _places(self) -> list[tuple[str, int | None, str]]:
-        """Return name, process and host of each node that is listed; None: not known."""
-        host = self._own_host()
-        found = []
-        for prefix, each in self._newest().items():
-            is_here = host is None or prefix[:_HOST] == host
-            pids = processes_of(prefix) if is_here else []
-            if is_here and not pids:
-                continue
-            pid = pids[0] if len(pids) == 1 else None
-            place = '' if is_here else prefix[:_HOST].hex()
-            found += [(_full(*name), pid, place) for name in each.nodes.elements()]
-        return found
+    def _nodes(self, host: bytes | None) -> Iterator[GraphNode]:
+        names = Counter(_full(*each) for each in self._node.get_node_names_and_namespaces())
+        announcers = self._announcers()
+        for name in sorted(names.keys() - {self._own}):
+            places = [prefix for each, prefix in announcers if each == name]
+            for prefix in places:
+                is_here = host is None or prefix[:_HOST] == host
+                pids = processes_of(prefix) if is_here else []
+                if pids or not is_here:
+                    place = '' if is_here else prefix[:_HOST].hex()
+                    yield self._described(name, pids[0] if len(pids) == 1 else None, place)
+            if not places:  # it has no such publisher, or one that was not discovered yet
+                yield from (self._described(name, None, '') for _ in range(names[name]))
 
-    def _ended(self) -> set[bytes]:
-        """Return the participants of this machine whose processes have ended, by gid prefix."""
-        host = self._own_host()
-        prefixes = {each for each in self._newest() if host is not None and each[:_HOST] == host}
-        return {prefix for prefix in prefixes if not processes_of(prefix)}
-
-    def _nodes(self, ended: set[bytes]) -> Iterable[GraphNode]:
-        own = self._node.get_fully_qualified_name()
-        known = self._node.get_node_names_and_namespaces()
-        names = [_full(*each) for each in known]
-        places = [each for each in self._places() if each[0] in names]
-        gone = {_full(*name) for prefix in ended for name in self._newest()[prefix].nodes}
-        listed = {name for name, _, _ in places} | gone
-        places += [(name, None, '') for name in names if name not in listed]
-        for name, pid, host in sorted(places, key=lambda each: each[0]):
-            if name == own:
-                continue
-            question = self._questions.get(name)
-            value = (question.values or {}).get('use_sim_time') if question else None
-            state = _states(pid) if pid is not None else set()
-            yield GraphNode(
-                name=name,
-                host=host,
-                process=pid,
-                is_stopped='T' in state,
-                is_silent=self._is_silent(question, pid, state),
-                use_sim_time=value if isinstance(value, bool) else None,
-            )
+    def _described(self, name: str, pid: int | None, host: str) -> GraphNode:
+        question = self._questions.get(name)
+        value = (question.values or {}).get('use_sim_time') if question else None
+        state = _states(pid) if pid is not None else set()
+        return GraphNode(
+            name=name,
+            host=host,
+            process=pid,
+            is_stopped='T' in state,
+            is_silent=self._is_silent(question, pid, state),
+            use_sim_time=value if isinstance(value, bool) else None,
+        )
 
     def _is_silent(self, question: Question | None, pid: int | None, state: set[str]) -> bool:
         if question is None or question.values is not None or question.asked is None:
@@ -153,29 +139,42 @@ class GraphProbe:
 
     # --- topics -------------------------------------------------------------------------------
 
-    def _topics(self, ended: set[bytes]) -> tuple[Topic, ...]:
+    def _topics(self, host: bytes | None) -> tuple[Topic, ...]:
         node = self._node
+        running: dict[bytes, bool] = {}
         return tuple(
             Topic(
                 name=name,
-                publishers=self._ends(node.get_publishers_info_by_topic(name), ended),
-                subscriptions=self._ends(node.get_subscriptions_info_by_topic(name), ended),
+                publishers=self._ends(node.get_publishers_info_by_topic(name), host, running),
+                subscriptions=self._ends(
+                    node.get_subscriptions_info_by_topic(name), host, running
+                ),
             )
             for name, _ in sorted(node.get_topic_names_and_types())
         )
 
-    def _ends(self, found: Iterable[TopicEndpointInfo], ended: set[bytes]) -> tuple[Endpoint, ...]:
-        own = self._node.get_fully_qualified_name()
-        return tuple(
-            Endpoint(
-                node=endpoint_node(each) or _NAMELESS,
-                type_name=each.topic_type,
-                type_hash=_hash_of(each),
-                qos=qos_of(each.qos_profile),
-            )
-            for each in found
-            if endpoint_node(each) != own and bytes(each.endpoint_gid[:PREFIX]) not in ended
-        )
+    def _ends(
+        self,
+        found: Iterable[TopicEndpointInfo],
+        host: bytes | None,
+        running: dict[bytes, bool],
+    ) -> tuple[Endpoint, ...]:
+        """Return endpoints; ``running``: the participants that were looked for already."""
+        ends = []
+        for each in found:
+            prefix = bytes(each.endpoint_gid[:PREFIX])
+            if prefix not in running:
+                running[prefix] = prefix[:_HOST] != host or bool(processes_of(prefix))
+            if endpoint_node(each) != self._own and running[prefix]:
+                ends.append(
+                    Endpoint(
+                        node=endpoint_node(each) or _NAMELESS,
+                        type_name=each.topic_type,
+                        type_hash=_hash_of(each),
+                        qos=qos_of(each.qos_profile),
+                    )
+                )
+        return tuple(ends)
 
 
 def qos_of(profile: QoSProfile) -> Qos:

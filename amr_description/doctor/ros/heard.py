@@ -20,7 +20,7 @@ from rosgraph_msgs.msg import Clock
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.polled_topic import NeverCalled
-from amr_description.ros.publisher_gids import take_with_gid
+from amr_description.ros.publisher_gids import MessageOfPublisher, take_with_gid
 
 CLOCK = '/clock'
 _TICKS = 200
@@ -56,6 +56,11 @@ class HeardTopic:
 
     def take(self) -> Iterator[tuple[Any, int, bytes]]:
         """Yield what has come since: a message, when it came (system time, ns), its publisher."""
+        for taken in self.take_bytes():
+            yield deserialize_message(taken.data, self._type), taken.received, taken.gid
+
+    def take_bytes(self) -> Iterator[MessageOfPublisher]:
+        """Yield what has come since, as bytes."""
         while True:
             try:
                 taken = take_with_gid(self._subscription)
@@ -63,7 +68,16 @@ class HeardTopic:
                 return
             if taken is None:
                 return
-            yield deserialize_message(taken.data, self._type), taken.received, taken.gid
+            yield taken
+
+    @property
+    def has_publisher(self) -> bool:
+        """Whether a publisher is connected."""
+        return self._subscription.get_publisher_count() > 0
+
+    def destroy(self) -> None:
+        """Hear nothing more."""
+        self._node.destroy_subscription(self._subscription)
 
     def publishers(self) -> dict[bytes, str]:
         """Return the nodes of all publishers that are there, by gid; '' is one without a name."""

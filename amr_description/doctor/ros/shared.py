@@ -15,18 +15,18 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
-from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.subscription import Subscription
 from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 
 from amr_description.doctor.observations.clock import ClockTick
+from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.ros.messages import nanoseconds
 
 CLOCK_TOPIC = '/clock'
 GET_PARAMETERS = '/get_parameters'
 
-_CLOCK_QOS = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+_DEPTH = 200
+"""Ticks between two looks."""
 _AGAIN = 0.5
 """s until a question is asked again: a server may throw away its first response to a client that
 it has not discovered yet."""
@@ -48,6 +48,10 @@ class Question:
         """How often it was looked for an answer since."""
         self.values: dict[str, object] | None = None
         """The answer: those that the node has."""
+
+    def is_reachable(self) -> bool:
+        """Whether its server is there: what was of a node that has ended stays a moment."""
+        return self._client.service_is_ready()
 
     def is_answered(self) -> bool:
         """Take an answer, or ask again; return whether there is one."""
@@ -76,11 +80,11 @@ class Shared:
         self._node = node
         self._clients: dict[str, Client] = {}
         self._questions: dict[tuple[str, tuple[str, ...]], Question] = {}
-        self._clock: Subscription | None = None
+        self._clock: HeardTopic | None = None
         self._matched: float | None = None
         self._users = 0
         self.ticks: list[ClockTick] = []
-        """What came on ``/clock`` since :meth:`listen`."""
+        """What :meth:`hear` has taken of ``/clock``."""
 
     def ask(self, node: str, names: Iterable[str]) -> Question:
         """Return a question to a node, by its full name; it is asked by being looked at."""
@@ -95,14 +99,18 @@ class Shared:
     def listen(self) -> None:
         """Subscribe to ``/clock``, once."""
         if self._clock is None:
-            self._clock = self._node.create_subscription(
-                Clock, CLOCK_TOPIC, self._on_clock, _CLOCK_QOS
-            )
+            self._clock = HeardTopic(self._node, Clock, CLOCK_TOPIC, depth=_DEPTH)
+
+    def hear(self) -> None:
+        """Take the ticks that have come."""
+        for message, received, _ in self._clock.take() if self._clock is not None else ():
+            if len(self.ticks) < _MOST_TICKS:
+                self.ticks.append(ClockTick(nanoseconds(message.clock), received))
 
     @property
     def seconds(self) -> float:
-        """How long ``/clock`` was listened to since its publisher was matched, s."""
-        if self._clock is None or not self._clock.get_publisher_count():
+        """How long ``/clock`` was listened to since its publisher was connected, s."""
+        if self._clock is None or not self._clock.has_publisher:
             return 0.0
         self._matched = self._matched or time.monotonic()
         return time.monotonic() - self._matched
@@ -126,12 +134,8 @@ class Shared:
         for client in self._clients.values():
             self._node.destroy_client(client)
         if self._clock is not None:
-            self._node.destroy_subscription(self._clock)
+            self._clock.destroy()
         _SHARED.pop(self._node, None)
-
-    def _on_clock(self, message: Clock, info: dict[str, int]) -> None:
-        if len(self.ticks) < _MOST_TICKS:
-            self.ticks.append(ClockTick(nanoseconds(message.clock), received(info)))
 
 
 def shared_of(node: Node) -> Shared:
@@ -139,8 +143,3 @@ def shared_of(node: Node) -> Shared:
     shared = _SHARED.setdefault(node, Shared(node))
     shared.take()
     return shared
-
-
-def received(info: dict[str, int]) -> int:
-    """Return when DDS received a message, not when this process had time for it."""
-    return info.get('received_timestamp') or time.time_ns()
