@@ -5,7 +5,9 @@ Scan, TF, stamps and odometry fit together: a robot drives through the warehouse
 is localized by its scans, and by the truth.
 """
 
+from collections.abc import Callable
 from contextlib import ExitStack
+from functools import partial
 from itertools import islice
 from math import degrees, hypot
 
@@ -141,12 +143,19 @@ def begin(stack: ExitStack, sim: Simulation, localizer: str, *words: str) -> Lis
     stack.enter_context(running(localizer, *ros, *words, until='map -> odom'))
     listener = Listener(sim)
 
-    def works() -> bool:
-        sim.run(0.1)
-        is_heard = bool(listener.poses and listener.truths)
-        return is_heard and listener.buffer.can_transform('map', 'lidar_link', Time())
+    def let_time_pass_until(condition: Callable[[], object], what: str) -> None:
+        def holds() -> object:
+            sim.run(0.1)
+            return condition()
 
-    sim.wait(works, 'map -> lidar_link')
+        sim.wait(holds, what)
+
+    let_time_pass_until(lambda: listener.truths, 'the ground truth')
+    let_time_pass_until(lambda: listener.poses, 'amcl_pose')
+    for parent, child in (('map', 'odom'), ('odom', 'lidar_link'), ('map', 'lidar_link')):
+        let_time_pass_until(
+            partial(listener.buffer.can_transform, parent, child, Time()), f'{parent} -> {child}'
+        )
     sim.run(2 * CYCLE)
     return listener
 
