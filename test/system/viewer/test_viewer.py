@@ -114,9 +114,11 @@ def url():
 
 
 @pytest.fixture
-def host():
+def host(url):
     rclpy.init(args=[])
     host = Host()
+    with Page(url) as page:  # the viewer still has the robots of the test before for a moment
+        host.until(lambda: (graph := page.last('graph')) and not graph['robots'])
     yield host
     host.node.destroy_node()
     rclpy.try_shutdown()
