@@ -39,6 +39,7 @@ no clock:
 ``orchestrator.py``      the event loop: starts, watches and ends the processes
 ``scheduler.py``         pure: what may start, what failed, when it is ready or over; timeouts
 ``graph_watcher.py``     observes the ROS graph and files while a condition asks
+``diagnosis.py``         what the doctor finds when a start has failed
 ``process.py``           one running process: its process group, its output, its end
 ``fork_server.py``       starts executables of this package without their imports
 ``terminal.py``          … that has the terminal, as a shell gives it to a foreground job

@@ -23,6 +23,7 @@ import time
 from amr_description.bringup.command_line import ProcessSpec
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
+from amr_description.bringup.diagnosis import Diagnosis, is_unexplained, TIMEOUT
 from amr_description.bringup.environment import child_environment
 from amr_description.bringup.fork_server import ForkServer
 from amr_description.bringup.graph_watcher import COMMAND, ExternalState, GraphWatch
@@ -76,6 +77,7 @@ class Orchestrator:
             self._spawn_graph_watch, self._wake.set, self._reporter.graph_watch_output
         )
         self._external = ExternalState(watch)
+        self._diagnosis: Diagnosis | None = None
         self._stop_handlers = stack.stop_handlers
         self._stop_requests = 0
         self._stop_reason = ''
@@ -90,10 +92,12 @@ class Orchestrator:
             try:
                 await self._fork_server_is_ready()
                 await self._run_until_over()
+                await self._diagnose()
             finally:
                 await self._stop_all()
                 await self._end_the_rest()
-        self._reporter.failure(self._scheduler, self._last_lines)
+        found = self._diagnosis.text if self._diagnosis else ''
+        self._reporter.failure(self._scheduler, self._last_lines, found)
         return self._result
 
     @property
@@ -246,9 +250,33 @@ class Orchestrator:
             self._wake.set()
 
     def _spawn_graph_watch(self, on_line: Callable[[str], None]) -> Child:
+        return self._spawn_own(COMMAND, on_line)
+
+    def _spawn_own(self, command: Sequence[str], on_line: Callable[[str], None]) -> Child:
+        """Start a program of the bring-up itself."""
         environment = {**self._environment, 'PYTHONUNBUFFERED': '1', **self._lifeline.variables}
         with signal_blocked(signal.SIGINT):
-            return Child(COMMAND, environment, self._lifeline.reader, on_line)
+            return Child(command, environment, self._lifeline.reader, on_line)
+
+    async def _diagnose(self) -> None:
+        """Have the doctor look for the cause of a start that failed, while the rest runs."""
+        scheduler = self._scheduler
+        has_ros = any(self._specs[node].unblocks_sigint for node in self._children)
+        if scheduler.ready or self._stop_requests or not has_ros:
+            return
+        if not is_unexplained(scheduler.failure, self._last_lines):
+            return
+        self._diagnosis = diagnosis = Diagnosis(self._spawn_own)
+        deadline = time.monotonic() + TIMEOUT
+        while not diagnosis.is_over() and not self._stop_requests:
+            left = deadline - time.monotonic()
+            if left <= 0.0 or not await self._event(left):
+                break
+            self._handle_exits()
+        while not diagnosis.is_over():
+            diagnosis.kill()
+            await self._event(None)
+        diagnosis.close()
 
     def _handle_exits(self) -> None:
         """Give the scheduler all processes that have ended."""
@@ -269,7 +297,8 @@ class Orchestrator:
 
     def _running_pids(self) -> set[int]:
         watch = self._external.watch.process
-        others = (watch, self._fork_server)
+        doctor = self._diagnosis.process if self._diagnosis else None
+        others = (watch, self._fork_server, doctor)
         return {each.pid for each in (*self._running().values(), *others) if each}
 
     async def _stop_all(self) -> None:

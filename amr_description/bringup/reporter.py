@@ -177,8 +177,17 @@ class Reporter:
         )
         self._console.log('ERROR', name, text)
 
-    def failure(self, scheduler: Scheduler, last_lines: Mapping[Node, Collection[str]]) -> None:
-        """Report, last of all, what stopped the stack, if it was a failure."""
+    def failure(
+        self, scheduler: Scheduler, last_lines: Mapping[Node, Collection[str]], found: str = ''
+    ) -> None:
+        """
+        Report, last of all, what stopped the stack, if it was a failure.
+
+        Args:
+            scheduler: its state.
+            last_lines: of the output of each node.
+            found: what the doctor has found; empty: nothing.
+        """
         failure, shutdown = scheduler.failure, scheduler.shutdown
         if failure is None:
             if shutdown and shutdown.exit_code:
@@ -191,7 +200,7 @@ class Reporter:
             never_started = [self._name_of(node) for node in scheduler.waiting()]
             texts = failure_report(name, failure, last_lines[failure.node], never_started)
         self._note('failure', failure.node, reason=texts[-1])
-        for text in texts:
+        for text in [*texts, *([f'ros2 doctor finds: {found}'] if found else [])]:
             self._console.log('ERROR', LAUNCH, text)
 
     def handler_failed(self, text: str) -> None:

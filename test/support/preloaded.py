@@ -76,6 +76,7 @@ _BRINGUP_SCRIPT = ('amr_description', 'bringup')
 _TESTING = 'amr_description.testing'
 _STACKS = f"""
 {_SIMULATOR} {_BRINGUP} amr_description.nodes.create amr_description.nodes.graph_watch
+amr_description.doctor.ros.collector amr_description.nodes.start_failure
 amr_description.nodes.joint_state_publisher amr_description.nodes.robot_state_publisher
 amr_description.nodes.ros2_control_node amr_description.nodes.spawner
 amr_description.nodes.teleop_twist_keyboard amr_description.nodes.viewer

@@ -1,0 +1,60 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Of which failures of a start the doctor is asked for the cause."""
+
+import pytest
+
+from amr_description.bringup import Node
+from amr_description.bringup.diagnosis import Diagnosis, is_unexplained
+from amr_description.bringup.scheduler import Failure
+
+NODE = Node('talker')
+FATAL = '[FATAL] [1.2] [create]: Entity creation failed'
+
+
+@pytest.mark.parametrize(
+    ('code', 'lines', 'is_asked'),
+    [
+        (1, ['Traceback', 'KeyError'], True),
+        (102, [], True),
+        (1, ['a', FATAL], False),
+        (1, ['a', FATAL, ''], False),
+        (1, [FATAL, 'Traceback'], True),
+        (1, ['[create-3] [ERROR] [1.2] [create]: Entity creation failed'], False),
+        (102, ['[ERROR] [1.2] [rcl]: Expected RMW implementation identifier'], True),
+        (-9, ['a'], False),
+    ],
+)
+def test_it_is_asked_where_nothing_else_explains(code, lines, is_asked):
+    failure = Failure(NODE, code, 0)
+    assert is_unexplained(failure, {NODE: lines}) is is_asked
+
+
+def test_no_failure_is_no_question():
+    assert not is_unexplained(None, {})
+
+
+def test_lines_of_libraries_are_left_out():
+    class Ended:
+        def poll(self):
+            return True
+
+        def close(self): ...
+
+    def spawn(_command, on_line):
+        for line in ('[rcl]: hm', 'doctor: the domain', 'doctor:   fix: another'):
+            on_line(line)
+        return Ended()
+
+    diagnosis = Diagnosis(spawn)
+    assert diagnosis.is_over()
+    diagnosis.close()
+    assert diagnosis.text == 'the domain\n    fix: another'
+
+
+def test_what_cannot_be_started_finds_nothing():
+    def spawn(_command, _on_line):
+        raise OSError('no memory')
+
+    diagnosis = Diagnosis(spawn)
+    assert (diagnosis.is_over(), diagnosis.text) == (True, '')
