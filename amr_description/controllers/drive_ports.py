@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The topics that controllers of wheeled robots share."""
 
+from collections import deque
+
 from amr_description.control.contracts import Controller, Input, Log, Output, Port, Qos, Severity
 from amr_description.control.samples import FlagSample, OdometrySample, TwistSample
 
@@ -34,14 +36,24 @@ class EmergencyStop(Input[FlagSample]):
             capacity=1,
         )
         self._log = log
-        self.is_engaged = False
-        """Written on the ROS thread: all that an update reads of it."""
+        self._is_engaged = False
+        self._latest = False
+        """Of the ROS thread, which is ahead of the control thread."""
+        self._arrived: deque[tuple[bool, bytes]] = deque(maxlen=16)
+
+    @property
+    def is_engaged(self) -> bool:
+        """Whether the robot is held; on the control thread, which acts on it now."""
+        while self._arrived:
+            self._is_engaged, message = self._arrived.popleft()
+            if self.on_drain is not None and message:
+                self.on_drain([message])
+        return self._is_engaged
 
     def put(self, sample: FlagSample, message: bytes = b'') -> bool:
         """Take the state of the lock, whatever the controller's is."""
-        if self.on_drain is not None and message:
-            self.on_drain([message])
-        was_engaged, self.is_engaged = self.is_engaged, sample.value
+        was_engaged, self._latest = self._latest, sample.value
+        self._arrived.append((sample.value, message))
         if was_engaged != sample.value:
             name = self.port.name
             text = (

@@ -30,6 +30,7 @@ from amr_description.bringup.controller_files import (
     URDF,
     with_sensors,
 )
+from amr_description.bringup.description import ParameterValue
 from amr_description.bringup.environment import setup_command
 from amr_description.bringup.stacks.controllers import (
     plan_controllers,
@@ -37,7 +38,11 @@ from amr_description.bringup.stacks.controllers import (
     words_of,
 )
 from amr_description.bringup.stacks.next_steps import velocity_topic
-from amr_description.bringup.stacks.simulation import ABOUT_CONTROLLERS
+from amr_description.bringup.stacks.simulation import (
+    ABOUT_CONTROLLERS,
+    ABOUT_RECORD,
+    new_folder,
+)
 from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
 from amr_description.errors import UsageError
 from amr_description.model.shapes import horizontal_reach
@@ -61,6 +66,7 @@ def fleet(
     rtf: Annotated[float, 'real-time factor; 0 is as fast as possible'] = 1.0,
     spacing: Annotated[float, 'm between two robots; 0: by their size'] = 0.0,
     viewer: Annotated[bool, ABOUT_VIEWER] = True,
+    record: Annotated[str, ABOUT_RECORD] = '',
 ) -> Stack:
     """Several robots in MuJoCo, each in its namespace with both controllers, ready to drive."""
     _require(robots >= 1, f'robots:={robots}: a fleet has 1 robot or more')
@@ -80,13 +86,7 @@ def fleet(
         urdf, description, controllers and str(file), namespace=f'/{next(iter(positions))}'
     )
     # 1. The simulated world, empty so far; it publishes /clock.
-    mujoco_sim = Node(
-        'mujoco_sim',
-        parameters=[
-            {'world': world, 'real_time_factor': rtf, 'controllers': plan.parameter or str(file)}
-        ],
-        on_exit='shutdown',
-    )
+    mujoco_sim = _simulator(world, rtf, plan.parameter or str(file), new_folder(record))
     # 2. The origins of the odometry frames: they join the robots in one tree of frames.
     map_publisher = Node(
         'robot_state_publisher',
@@ -108,6 +108,12 @@ def fleet(
         next_steps=_how_to_drive(list(positions), plan),
         notes=[*notes_on([path_of(urdf), file]), *plan.notes],
     )
+
+
+def _simulator(world: str, rtf: float, controllers: str, record: str) -> Node:
+    parameters: dict[str, ParameterValue] = {'world': world, 'real_time_factor': rtf}
+    parameters |= {'controllers': controllers} | ({'record': record} if record else {})
+    return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
 
 
 def _robot(name: str, position: _Position, description: str, plan: SpawnPlan) -> tuple[Node, ...]:

@@ -99,7 +99,7 @@ def simulation(
     plan = plan_controllers(urdf, description, controllers, activate, bridge=bridge)
     options: dict[str, ParameterValue] = {'lift': lift, 'strict': strict, 'bridge': bridge}
     options |= {'mock_hardware': mock_hardware, 'camera_renderer': camera_renderer}
-    options |= {'record': _new_folder(record)}
+    options |= {'record': new_folder(record)}
 
     # 1. The simulated world, empty so far; it publishes /clock.
     mujoco_sim = _simulator(world, rtf, paused, plan.parameter, options)
@@ -178,7 +178,7 @@ def _simulator(
     return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')
 
 
-def _new_folder(record: str) -> str:
+def new_folder(record: str) -> str:
     """Return the absolute path of a bag that is to be made; empty: none is."""
     if not record:
         return ''

@@ -220,10 +220,7 @@ class EntityManager:
             running, thread = self._serve(prepared, manager, given)
         self._ground_truth.add(given, namespace)
         self._sensors.add(given, namespace, translation.sensors)
-        record = EntityRecord(_category_of(robot))
-        origin = Spawned(robot, namespace, pose)
-        self._entities[given] = Entity(given, record, running, thread, origin)
-        self.on_change()
+        self._add(given, Spawned(robot, namespace, pose), running, thread)
         if running is not None and thread is not None:
             starting = start_controllers(running, translation.controllers, self._log)
             self._starting[given] = started = run_in(thread.executor, starting, self._executor)
@@ -231,6 +228,17 @@ class EntityManager:
             if self._starting.get(given) is started:  # not removed meanwhile, and spawned again
                 del self._starting[given]
         return given
+
+    def _add(
+        self,
+        name: str,
+        origin: Spawned,
+        running: RunningManager | None,
+        thread: ExecutorThread | None,
+    ) -> None:
+        record = EntityRecord(_category_of(origin.robot))
+        self._entities[name] = Entity(name, record, running, thread, origin)
+        self.on_change()
 
     async def remove(self, name: str) -> None:
         """

@@ -51,6 +51,13 @@ def test_every_robot_has_nodes_of_its_own_in_its_namespace():
     assert len(of(nodes, 'mujoco_sim')) == 1
 
 
+def test_it_is_recorded_to_a_new_folder(tmp_path):
+    (simulator,) = of(stack(record=str(tmp_path / 'bag')).nodes, 'mujoco_sim')
+    assert simulator.parameters[0]['record'] == str(tmp_path / 'bag')
+    with pytest.raises(AmrError, match='^record:=.*: it is there already; another name will do'):
+        stack(record=str(tmp_path))
+
+
 def test_each_waits_for_its_own_robot_only():
     made = stack(robots='2')
     scheduler = Scheduler(made)

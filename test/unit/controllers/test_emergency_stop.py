@@ -159,6 +159,16 @@ def test_a_change_is_logged_once():
     ]
 
 
+def test_it_is_recorded_when_the_controller_acts_on_it():
+    robot, recorded = bench('diff_drive_controller/DiffDriveController'), []
+    lock = lock_of(robot)
+    lock.on_drain = recorded.extend
+    lock.put(FlagSample(True), b'true')
+    assert recorded == []
+    robot.update()
+    assert recorded == [b'true']
+
+
 def test_a_command_of_before_the_stop_is_not_in_force_after_it():
     robot = bench('amr_description/GazeboDiffDrive')  # whose commands never expire
     robot.controller.inputs()[0].put(TwistSample(0, 0.3, 0.0))
