@@ -24,6 +24,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from support.running_programs import PATIENCE
+from support.serving import serving
 from tf2_msgs.msg import TFMessage
 
 from amr_description.model.frames import Transform
@@ -138,15 +139,14 @@ class Navigating:
         self._context = Context()
         self._context.init([])
         self.robot = NavigatedRobot(self._context)
-        self._executor = MultiThreadedExecutor(3, context=self._context)
-        self._executor.add_node(self.robot)
-        self._thread = threading.Thread(target=self._executor.spin)
-        self._thread.start()
+        executor = MultiThreadedExecutor(3, context=self._context)
+        executor.add_node(self.robot)
+        self._service = serving(executor)
+        self._service.__enter__()
         return self.robot
 
     def __exit__(self, *_):
-        self._executor.shutdown()
-        self._thread.join()
+        self._service.__exit__(None, None, None)
         self.robot.destroy_node()
         self._context.try_shutdown()
 

@@ -3,6 +3,7 @@
 """Goals that pages give by the action of Nav2: followed, cancelled, refused, and ended by STOP."""
 
 import asyncio
+from contextlib import ExitStack
 from dataclasses import replace
 import threading
 
@@ -13,6 +14,7 @@ from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from support.navigated_robot import NavigationServer, until
 from support.ros_processes import PATIENCE
+from support.serving import serving
 
 from amr_description.errors import ViewerError
 from amr_description.viewer.navigation import Navigator
@@ -38,10 +40,9 @@ class Graph:
             SingleThreadedExecutor(context=self._context),
             MultiThreadedExecutor(4, context=self._context),
         ]
-        self._threads = [threading.Thread(target=self.loop.run_forever)]
+        self._thread = threading.Thread(target=self.loop.run_forever)
         for node, executor in zip(self.nodes, self._executors, strict=True):
             executor.add_node(node)
-            self._threads.append(threading.Thread(target=executor.spin))
         self.server = NavigationServer(self.nodes[1], NAVIGATOR.action)
         self.heard = []
         self.nodes[1].create_subscription(PoseStamped, NAVIGATOR.goal, self.heard.append, 10)
@@ -49,8 +50,10 @@ class Graph:
             self.nodes[0], self._executors[0], self.told.append, self.loop.call_soon_threadsafe
         )
         self.goals.find([NAVIGATOR], ['/a'])
-        for thread in self._threads:
-            thread.start()
+        self._thread.start()
+        self._service = ExitStack()
+        for executor in self._executors:
+            self._service.enter_context(serving(executor))
         until(lambda: self.goals._ends['/a'].action.server_is_ready())
 
     def run(self, work):
@@ -90,11 +93,9 @@ class Graph:
 
     def close(self):
         self.server.ends.set()
-        for executor in self._executors:
-            executor.shutdown()
+        self._service.close()
         self.loop.call_soon_threadsafe(self.loop.stop)
-        for thread in self._threads:
-            thread.join()
+        self._thread.join()
         self.loop.close()
         # destroy_node leaves it, and the next test would take it for its own.
         self.server.destroy()

@@ -4,7 +4,6 @@
 
 import asyncio
 import math
-import threading
 import time
 
 from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
@@ -16,6 +15,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float64
 from support.ros_processes import PATIENCE
+from support.serving import serving
 from tf2_msgs.msg import TFMessage
 
 from amr_description.errors import AmrError
@@ -48,11 +48,8 @@ def ros():
     executor = SingleThreadedExecutor()
     executor.add_node(viewer)
     executor.add_node(other)
-    thread = threading.Thread(target=executor.spin)
-    thread.start()
-    yield viewer, other, executor
-    executor.shutdown()
-    thread.join()
+    with serving(executor):
+        yield viewer, other, executor
     viewer.destroy_node()
     other.destroy_node()
     rclpy.try_shutdown()

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """STOP, with a stranger who drives on: it holds until it is released, whatever pages become."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, ExitStack
 import signal
-import threading
 import time
 
 from controller_manager_msgs.msg import ControllerState
@@ -25,6 +24,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool, String
 from support.page import Page
+from support.serving import serving
 from test_viewer_server import url_of, viewer
 
 AHEAD = 0.3
@@ -123,17 +123,14 @@ def graph(make):
     context = Context()
     context.init(args=[])
     nodes = make(context)
-    executors = [SingleThreadedExecutor(context=context) for _ in nodes]
-    threads = [threading.Thread(target=executor.spin) for executor in executors]
-    for node, executor, thread in zip(nodes, executors, threads, strict=True):
-        executor.add_node(node)
-        thread.start()
     try:
-        yield nodes
+        with ExitStack() as served:
+            for node in nodes:
+                executor = SingleThreadedExecutor(context=context)
+                executor.add_node(node)
+                served.enter_context(serving(executor))
+            yield nodes
     finally:
-        for executor, thread in zip(executors, threads, strict=True):
-            executor.shutdown()
-            thread.join()
         for node in nodes:
             node.destroy_node()
         context.try_shutdown()
