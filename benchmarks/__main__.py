@@ -118,7 +118,9 @@ class Bench:
             self.measure(lambda: start_figures(starts), 'start: ', ('warm',))
             self.measure(lambda: load_figures(node, run, seconds), 'load: ', ('load',))
             self.measure(
-                lambda: command_figures(node, seconds, quick=quick), 'ros2: ', ('list', 'hz')
+                lambda: command_figures(node, seconds, quick=quick),
+                'ros2: ',
+                ('list', 'hz', 'doctor'),
             )
             self.measure(
                 lambda: viewer_figures(node, seconds, quick=quick), 'the page: ', ('page',)

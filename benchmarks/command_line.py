@@ -5,6 +5,7 @@
 from array import array
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+import os
 import re
 import signal
 import statistics
@@ -21,6 +22,7 @@ from benchmarks.figures import Figures
 _RUNS = 5
 _QUICK_RUNS = 3
 _HZ = 1000.0
+_DOMAINS = 100
 _RATE_LINE = re.compile(r'average rate: ([\d.]+)')
 _JOINTS = tuple(
     f'joint_wheel_{end}_{side}' for end in ('back', 'front') for side in ('left', 'right')
@@ -38,26 +40,42 @@ def command_figures(node: Node, seconds: float, *, quick: bool = False) -> Figur
     """
     listing = _median_time(['ros2', 'topic', 'list'], _QUICK_RUNS if quick else _RUNS)
     share = _hz_share(node, _HZ, seconds)
+    doctor = ['ros2', 'doctor']
+    alone = _median_time(doctor, _QUICK_RUNS, ROS_DOMAIN_ID=_other_domain())
     rows = [
         ('ros2 topic list', f'{listing:8.2f} s'),
+        ('ros2 doctor, where nothing runs', f'{alone:8.2f} s'),
         (f'ros2 topic hz at {_HZ:g} Hz', f'{100.0 * share:8.1f} %'),
     ]
     if not quick:
         rows += [
+            ('ros2 doctor, beside a robot', f'{_median_time(doctor):8.2f} s'),
             ('ros2 --help', f'{_median_time(["ros2", "--help"]):8.2f} s'),
             ('ros2 topic echo of JointState at 500 Hz', f'{_echo(node, 500.0, seconds):8.1f} Hz'),
         ]
     lines = [f'{name:<42}{value}' for name, value in rows]
     text = '\n'.join(('the ros2 command', *lines))
-    return Figures({'list': listing, 'hz': 100.0 * share}, text)
+    return Figures({'list': listing, 'hz': 100.0 * share, 'doctor': alone}, text)
 
 
-def _median_time(command: Sequence[str], runs: int = _RUNS) -> float:
+def _other_domain() -> str:
+    """Return a ROS domain in which this measurement has no node."""
+    return str((int(os.environ.get('ROS_DOMAIN_ID') or 0) + 1) % _DOMAINS)
+
+
+def _median_time(command: Sequence[str], runs: int = _RUNS, **variables: str) -> float:
     """Return the median wall time of some runs of a command, s."""
     times = []
+    environment = {**os.environ, **variables}
     for _ in range(runs):
         start = time.monotonic()
-        subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        subprocess.run(
+            command,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env=environment,
+            check=command[1] != 'doctor',  # which may find something
+        )
         times.append(time.monotonic() - start)
     return statistics.median(times)
 

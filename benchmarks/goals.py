@@ -74,6 +74,7 @@ GOALS = (
     Goal('missed', '1 kHz control, cycles missed', '', _AT_MOST, 0.0, 'latency'),
     Goal('late', '1 kHz control, lateness p99', 'ms', _AT_MOST, 2.0, 'latency'),
     Goal('list', 'ros2 topic list', 's', _AT_MOST, 0.6, 'stack'),
+    Goal('doctor', 'ros2 doctor, nothing running', 's', _AT_MOST, 2.0, 'stack'),
     # All of what is published: both rates are means over some seconds, and not quite the same
     # ones: 99.5 rounds to all of it, and 10 ms at either end are two thousandths.
     Goal('hz', 'ros2 topic hz of 1 kHz', '%', _AT_LEAST, 99.5, 'stack'),

@@ -27,6 +27,7 @@ MACHINE = Machine(
     architecture='x86_64',
     c_library='glibc 2.36',
     processors=2,
+    load=2.5,
     python=PYTHON,
     encoding='UTF-8',
     memory=8 * GIGABYTE,

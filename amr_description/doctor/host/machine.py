@@ -39,6 +39,7 @@ def read_machine(variables: Mapping[str, str]) -> Machine:
         architecture=platform.machine(),
         c_library=' '.join(platform.libc_ver()).strip(),
         processors=len(os.sched_getaffinity(0)),
+        load=os.getloadavg()[0],
         python=read_python(),
         encoding=locale.getencoding() if not sys.flags.utf8_mode else 'UTF-8',
         memory=memory.get('MemTotal', 0),

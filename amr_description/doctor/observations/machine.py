@@ -62,6 +62,8 @@ class Machine:
     c_library: str
     """``glibc 2.36``; empty: another one."""
     processors: int
+    load: float
+    """Programs that ran or wanted to, in the mean of the last minute."""
     python: Python
     encoding: str
     """Of text on the terminal and of file names."""

@@ -17,6 +17,8 @@ _LEAST_SHARE = 0.05
 _MOST_STALLED = 0.2
 _NEEDED_GLIBC = (2, 28)
 """Of the wheels on PyPI: manylinux_2_28."""
+_HIGHEST_LOAD = 4.0
+"""For each processor."""
 _ARCHITECTURE = 'x86_64'
 _SETUP = 'scripts/setup'
 
@@ -129,6 +131,19 @@ def memory_short(seen: Observations) -> Iterator[Finding]:
         )
 
 
+def overloaded(seen: Observations) -> Iterator[Finding]:
+    """A robot's programs get a processor when they want one."""
+    machine = seen.machine
+    if machine and machine.load > _HIGHEST_LOAD * machine.processors:
+        yield warning(
+            'overloaded',
+            f'{machine.load:.0f} programs want to run at once, and there are '
+            f'{machine.processors} processors',
+            'cycles, messages and answers come late, and simulated time is slow',
+            'end what takes the most: ps -eo pid,pcpu,args --sort=-pcpu | head',
+        )
+
+
 def loopback_down(seen: Observations) -> Iterator[Finding]:
     """Nodes of one host talk by the loopback interface."""
     for each in seen.machine.interfaces if seen.machine else ():
@@ -179,6 +194,7 @@ RULES: tuple[Rule, ...] = (
     disk_full,
     log_folder,
     memory_short,
+    overloaded,
     loopback_down,
     multicast,
     encoding,

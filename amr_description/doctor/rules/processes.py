@@ -40,12 +40,7 @@ def orphaned_process(seen: Observations) -> Iterator[Finding]:
     if seen.processes is None:
         return
     runs = seen.processes.runs
-    own = seen.processes.domain
-    left = [
-        each
-        for each in seen.processes.processes
-        if each.run and each.run not in runs and each.domain in (own, None)
-    ]
+    left = [each for each in _of_domain(seen) if each.run and each.run not in runs]
     if left:
         pids = ' '.join(str(each.pid) for each in left)
         yield error(

@@ -57,6 +57,7 @@ FAULTS = {
         {'machine': {'free_memory': 100 * MEGABYTE}},
         {'machine': {'stalled_by_memory': 0.5}},
     ],
+    'overloaded': [{'machine': {'load': 9.0}}],
     'loopback_down': [{'machine': {'interfaces': (replace(LOOPBACK, is_up=False), ETHERNET)}}],
     'multicast': [
         {'machine': {'interfaces': (LOOPBACK, TUNNEL)}},
@@ -125,6 +126,9 @@ HEALTHY = {
     'another domain, nodes of other hosts': {
         'processes': [replace(SIMULATOR, domain=7)],
         'is_alone': False,
+    },
+    'ending of a run that has ended just now': {
+        'processes': [replace(SIMULATOR, domain=None, run='a-1')]
     },
     'stopped in another domain': {'processes': [replace(SIMULATOR, domain=7, state='T')]},
     'a VPN beside the network': {'machine': {'interfaces': (LOOPBACK, ETHERNET, TUNNEL)}},
