@@ -22,6 +22,9 @@ from amr_description.ros.message_types import message_type
 LISTEN = 1.0
 """s for which ``/clock`` is listened to."""
 
+SURE = 2.4
+"""s of a factor that is too low: other programs may take the processor for a moment."""
+
 _SILENCE = 1.5
 """s without a message on ``/clock``, after which it is silent."""
 _STAMP_PATIENCE = 1.5
@@ -160,6 +163,8 @@ class ClockProbe:
         factor = clock.factor
         if factor is None or not asked or factor >= LEAST_FACTOR_SHARE * max(asked):
             return True
+        if self._shared.seconds < SURE:
+            return False
         self._log_began = time.monotonic()
         self._log = HeardTopic(self._node, Log, '/rosout', depth=1000, qos=_ROSOUT)
         return False

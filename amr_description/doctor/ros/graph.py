@@ -27,7 +27,7 @@ from amr_description.ros.node_lists import PREFIX
 PATIENCE = 2.0
 """s that a node has to answer, by the system clock."""
 
-_FEWEST_LOOKS = 60
+_FEWEST_LOOKS = 20
 """Looks for the answer meanwhile: a process that had no time to look may have missed it."""
 _REACH = 0.5
 """s until a server is reached, if it is there."""

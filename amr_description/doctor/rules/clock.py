@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
+import math
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import Finding, Rule, Severity
@@ -71,7 +72,7 @@ def no_clock(seen: Observations) -> Iterator[Finding]:
         rule='no_clock',
         what=f'use_sim_time is true in {listed(waiting)}, and nobody publishes {_CLOCK}',
         why='their time stays at 0: timers do not run, stamps are 0, transforms are not found',
-        fix='start the simulation (or ros2 bag play --clock 100), or '
+        fix='start the simulation, or play the bag with --clock 100, or '
         f'ros2 param set {waiting[0]} use_sim_time false',
     )
 
@@ -178,7 +179,7 @@ def slow_simulation(seen: Observations) -> Iterator[Finding]:
     asked = source.asked_factor
     if measured >= LEAST_FACTOR_SHARE * asked:
         return
-    suggested = float(f'{max(0.9 * measured, 1e-3):.1g}')
+    suggested = max(math.floor(90.0 * measured) / 100.0, 0.01)
     yield Finding(
         severity=Severity.WARNING,
         rule='slow_simulation',
@@ -186,8 +187,8 @@ def slow_simulation(seen: Observations) -> Iterator[Finding]:
         + (f'; {source.node}: {source.report}' if source.report else ''),
         why='results are right, but what goes by the system clock (drivers, Nav2 in Jazzy, you) '
         'finds the robot slow',
-        fix=f'ros2 param set {source.node} {source.speed_parameter} {suggested}, or simulate less '
-        'at once: fewer robots, sensors, contacts',
+        fix=f'ros2 param set {source.node} {source.speed_parameter} {suggested:g}, or simulate '
+        'less at once: fewer robots, sensors, contacts',
     )
 
 

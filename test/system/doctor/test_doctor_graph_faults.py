@@ -46,6 +46,7 @@ SECOND, HALF = Duration(seconds=1), Duration(seconds=0.5)
 def robot():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(clock_probe, 'LISTEN', 0.3)
+        patch.setattr(clock_probe, 'SURE', 0.6)
         patch.setattr(command_probe, 'LISTEN', 1.0)
         patch.setattr(command_probe, 'SHORTEST', 0.3)
         with robot_bench() as made:

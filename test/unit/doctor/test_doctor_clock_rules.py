@@ -110,7 +110,7 @@ FAULTS = {
     'slow_simulation': (
         {'clock': clock(ticks=ticks(factor=0.31), sources=(source(report='physics 80%'),))},
         'the real-time factor is 0.31 instead of 1; /mujoco_sim: physics 80%',
-        'ros2 param set /mujoco_sim real_time_factor 0.3',
+        'ros2 param set /mujoco_sim real_time_factor 0.27, or simulate less',
     ),
 }
 

@@ -1,0 +1,118 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the doctor sees of a graph without a robot: time, silent nodes, what it leaves behind."""
+
+from fixtures.cli.commands import running_node
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+import pytest
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from support.contract_graph import clock, MS, transforms
+from support.doctor_bench import bench, every, GRAPH, typed
+from support.ros_processes import PATIENCE
+from tf2_msgs.msg import TFMessage
+
+from amr_description.clock import NANOSECONDS
+from amr_description.doctor.observations.commands import Drive
+from amr_description.doctor.ros import (
+    clock as clock_probe,
+    commands as command_probe,
+    graph as graph_probe,
+)
+from amr_description.doctor.ros.clock import ClockProbe, stamp_in
+from amr_description.doctor.ros.commands import drive_of
+from amr_description.ros.messages import fill_stamp
+from amr_description.ros.service_calls import wait_until
+
+TIME = {**GRAPH, 'clock': ClockProbe}
+TWO = 2 * NANOSECONDS
+
+
+@pytest.fixture(scope='module')
+def graph():
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(clock_probe, 'LISTEN', 0.5)
+        patch.setattr(graph_probe, 'PATIENCE', 1.0)
+        patch.setattr(command_probe, 'LISTEN', 0.2)
+        with bench() as made:
+            yield made
+
+
+def test_no_clock_for_nodes_with_simulated_time(graph):
+    with graph.intruder('mapper', use_sim_time=True):
+        found = graph.first('no_clock', 'use_sim_time is true in /mapper', TIME)
+        typed(found.fix)
+        graph.healed(TIME)
+
+
+def test_a_clock_that_goes_back_again_and_again(graph):
+    with graph.intruder('player', use_sim_time=False) as node:
+        publisher = node.create_publisher(Clock, '/clock', 10)
+        times = iter(range(10**6))
+        timer = every(node, 0.02, publisher, lambda: clock(TWO + next(times) % 10 * 100 * MS))
+        graph.first('clock_goes_back', 'by /player', TIME)
+        node.destroy_timer(timer)
+        every(node, 0.02, publisher, lambda: clock(TWO + next(times) * 20 * MS))
+        graph.healed(TIME)
+
+
+def test_a_node_whose_callbacks_are_not_served(graph):
+    with running_node('silent_node.py'):
+        found = graph.first('frozen_nodes', ' does not answer its parameter services', GRAPH)
+        assert 'kill -INT' in found.fix
+    graph.healed(GRAPH)
+
+
+def test_it_leaves_nothing_behind(graph):
+    with graph.intruder('robot') as node:
+        node.create_publisher(Odometry, '/odom', 10)
+        node.create_publisher(TwistStamped, '/cmd_vel', 10)
+        doctor = graph.doctor
+        before = len([*doctor.subscriptions]), len([*doctor.clients])
+        assert wait_until(
+            doctor, lambda: doctor.count_publishers('/cmd_vel') or None, timeout=PATIENCE
+        )
+        graph.findings()
+        assert (len([*doctor.subscriptions]), len([*doctor.clients])) == before
+
+
+def test_the_stamp_of_serialized_messages():
+    message = Odometry()
+    fill_stamp(TWO + 5, message.header.stamp)
+    assert stamp_in(serialize_message(message), 4) == TWO + 5
+    assert stamp_in(serialize_message(transforms(TWO + 7, ('odom', 'base'))), 8) == TWO + 7
+    assert stamp_in(serialize_message(TFMessage()), 8) is None
+    assert stamp_in(b'\0\1\0\0', 4) is None
+    assert stamp_in(b'', 4) is None
+
+
+LIMITS = {'linear.x.max_velocity': 0.5, 'linear.x.min_velocity': float('nan')}
+
+
+@pytest.mark.parametrize(
+    ('topic', 'values', 'expected'),
+    [
+        (
+            '/d/cmd_vel',
+            {'cmd_vel_timeout': 0.5, **LIMITS},
+            {'timeout': 0.5, 'limits': (('linear.x', -0.5, 0.5),)},
+        ),
+        (
+            '/d/cmd_vel',
+            {'cmd_vel_timeout': 0.5, 'linear.x.has_velocity_limits': False, **LIMITS},
+            {'timeout': 0.5},
+        ),
+        ('/t/cmd_vel', {'cmd_vel_timeout': 500}, {'timeout': 0.5}),
+        (
+            '/m/reference',
+            {'reference_timeout': 1.0},
+            {'timeout': 1.0, 'timeout_parameter': 'reference_timeout'},
+        ),
+        ('/gazebo/cmd_vel', {'reference_timeout': 1.0}, None),
+        ('/mux/cmd_vel', {}, None),
+    ],
+)
+def test_a_drive_by_its_parameters(topic, values, expected):
+    drive = expected and Drive(node='/n', topics=(topic,), **expected)
+    assert drive_of('/n', (topic,), values) == drive
