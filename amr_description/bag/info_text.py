@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ``ros2 bag info`` prints of a bag."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
+from typing import Any
 
 from amr_description.bag.metadata import BagMetadata, TopicInformation
 from amr_description.bag.storage import BagMessage, TopicMetadata
@@ -16,6 +17,13 @@ _INDENTATION_OF_SERVICES = ' ' * len('Service information: ')
 _UNITS = ('B', 'KiB', 'MiB', 'GiB', 'TiB')
 _AT_TYPE_OF_EVENT = 4  # behind the header of CDR
 _KINDS_OF_EVENT = 4  # a request sent, received, a response sent, received
+
+SORTING: Mapping[str, Callable[[TopicInformation], Any]] = {
+    'name': lambda each: each.topic_metadata.name,
+    'type': lambda each: each.topic_metadata.type,
+    'count': lambda each: each.message_count,
+}
+"""By what topics and services can be sorted, the least first."""
 
 
 @dataclass
@@ -37,13 +45,15 @@ class Contents:
                 self.events.setdefault(topic, [0] * _KINDS_OF_EVENT)[kind] += 1
 
 
-def topic_names(metadata: BagMetadata) -> list[str]:
-    """Return the names that ``--topic-name`` prints."""
-    topics = (each.topic_metadata for each in metadata.topics_with_message_count)
+def topic_names(metadata: BagMetadata, sort: str = 'name') -> list[str]:
+    """Return the names that ``--topic-name`` prints; ``sort``: one of :data:`SORTING`."""
+    topics = (each.topic_metadata for each in _sorted(metadata, sort))
     return [topic.name for topic in topics if not _is_of_service(topic)]
 
 
-def info_text(metadata: BagMetadata, size: int, contents: Contents | None = None) -> str:
+def info_text(
+    metadata: BagMetadata, size: int, contents: Contents | None = None, sort: str = 'name'
+) -> str:
     """
     Return the text, with a line for everything.
 
@@ -51,8 +61,9 @@ def info_text(metadata: BagMetadata, size: int, contents: Contents | None = None
         metadata: of the bag.
         size: of all files, bytes.
         contents: what was counted, for ``--verbose``; None: not verbose.
+        sort: one of :data:`SORTING`.
     """
-    topics = metadata.topics_with_message_count
+    topics = _sorted(metadata, sort)
     services = [each for each in topics if _is_of_service(each.topic_metadata)]
     others = [each for each in topics if not _is_of_service(each.topic_metadata)]
     begin, end = metadata.starting_time, metadata.end_time
@@ -79,6 +90,10 @@ def info_text(metadata: BagMetadata, size: int, contents: Contents | None = None
             '',
         ]
     )
+
+
+def _sorted(metadata: BagMetadata, sort: str) -> list[TopicInformation]:
+    return sorted(metadata.topics_with_message_count, key=SORTING[sort])
 
 
 def _is_of_service(topic: TopicMetadata) -> bool:

@@ -12,6 +12,8 @@ import sys
 
 from amr_description.cli.bag.inputs import add_reader_arguments
 
+SORTING = ('name', 'type', 'count')
+
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the arguments of the verb."""
@@ -24,6 +26,13 @@ def add_arguments(parser: ArgumentParser) -> None:
         '--verbose',
         action='store_true',
         help='Display request/response information for services',
+    )
+    parser.add_argument(
+        '--sort',
+        default='name',
+        choices=SORTING,
+        help='Configuration for sorting of output. By default sorts by topic name - use this '
+        'argument to override.',
     )
 
 
@@ -46,7 +55,7 @@ def main(args: Namespace) -> int:
                 file=sys.stderr,
             )
         if args.topic_name and not args.verbose:
-            for name in topic_names(reader.metadata):
+            for name in topic_names(reader.metadata, args.sort):
                 print(name)
             return 0
         contents = None
@@ -54,5 +63,5 @@ def main(args: Namespace) -> int:
             contents = Contents()
             for message in reader.messages():
                 contents.add(message)
-        print(info_text(reader.metadata, reader.size, contents))
+        print(info_text(reader.metadata, reader.size, contents, args.sort))
     return 0

@@ -4,13 +4,15 @@
 
 from argparse import ArgumentParser, Namespace
 import os
+import re
 import time
 
 import pytest
+from support.small_bags import topic, write_bag
 import yaml
 
 from amr_description.bag import metadata
-from amr_description.bag.info_text import Contents, info_text, size_text, topic_names
+from amr_description.bag.info_text import Contents, info_text, size_text, SORTING, topic_names
 from amr_description.bag.mcap_options import settings_from_text
 from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.metadata import BagMetadata, TopicInformation
@@ -84,6 +86,35 @@ def test_services_are_apart_and_verbose_counts_their_calls():
 
 
 @pytest.mark.parametrize(
+    ('sort', 'names', 'services'),
+    [
+        ('name', ['/a', '/b', '/c'], ['/r', '/s']),
+        ('type', ['/b', '/c', '/a'], ['/s', '/r']),
+        ('count', ['/c', '/a', '/b'], ['/r', '/s']),
+    ],
+)
+def test_topics_are_sorted(sort, names, services):
+    """Services by themselves."""
+    given = [
+        ('/b', 'a/msg/A', 9),
+        ('/s/_service_event', 'a/srv/A_Event', 7),
+        ('/a', 'c/msg/C', 5),
+        ('/c', 'b/msg/B', 1),
+        ('/r/_service_event', 'b/srv/B_Event', 6),
+    ]
+    found = BagMetadata(
+        topics_with_message_count=[
+            TopicInformation(TopicMetadata(name, kind), count) for name, kind, count in given
+        ]
+    )
+    assert topic_names(found, sort) == names
+    text = info_text(found, 0, sort=sort)
+    assert re.findall(r'Topic: (\S+)', text) == names
+    assert re.findall(r'Service: (/\S+)', text) == services
+    assert {*SORTING} == {*info.SORTING}
+
+
+@pytest.mark.parametrize(
     ('size', 'text'),
     [
         (0, '0 B'),
@@ -135,6 +166,8 @@ def test_reindex_mends_what_is_wrong_and_keeps_custom_data(bag):
 
 
 def test_reindex_is_of_folders(bag, capsys):
+    with pytest.raises(BagError, match='neither metadata.yaml nor a file'):
+        run(reindex, bag, '-s', 'sqlite3')
     assert run(reindex, bag / 'bag_0.mcap') == 1
     assert capsys.readouterr().err == '[ERROR] [ros2bag]: Must specify a bag directory\n'
 
@@ -156,6 +189,13 @@ def test_info_of_a_folder_a_file_and_what_was_interrupted(bag, capsys):
     assert 'it was interrupted' in printed.err
     with pytest.raises(BagError, match='neither metadata.yaml nor a file'):
         run(info, bag, '-s', 'sqlite3')
+
+
+def test_info_can_be_sorted(tmp_path, capsys):
+    write_bag(tmp_path / 'bag', [topic('/a'), topic('/b')], [(0, '/a', 'x')])
+    assert run(info, tmp_path / 'bag', '-t', '--sort', 'count') == 0
+    assert run(info, tmp_path / 'bag', '-t') == 0
+    assert capsys.readouterr().out.split() == ['/b', '/a', '/a', '/b']
 
 
 def test_verbose_goes_before_names(bag, capsys):

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What each flag of ``ros2 bag play`` and ``burst`` asks the player for."""
 
+from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -116,6 +118,22 @@ def test_what_is_about_the_node(asked):
     args = asked(*words.split())[3]
     assert (args.remap, args.log_level) == (['/a:=/b', '/c:=/d'], 'error')
     assert args.disable_keyboard_controls
+
+
+@pytest.mark.parametrize('is_disabled', [False, True])
+def test_keys_can_be_left_to_others(monkeypatch, is_disabled):
+    bound = []
+
+    @contextmanager
+    def keys(bindings):
+        bound.extend(bindings)
+        yield False
+
+    monkeypatch.setattr(playing, 'keys', keys)
+    player = SimpleNamespace(toggle_paused=None, play_next=None)
+    args = SimpleNamespace(disable_keyboard_controls=is_disabled)
+    with playing._keyboard(None, player, args):
+        assert bool(bound) != is_disabled
 
 
 def test_a_burst_is_paused(asked):
