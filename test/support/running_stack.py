@@ -107,14 +107,14 @@ def _plain(value):
 
 
 @contextmanager
-def running_stack(folder, urdf):
+def running_stack(folder, urdf, controllers=CONTROLLERS_YAML, manager=YAML):
     """
     Manager, robot_state_publisher and both controllers, active; yields the manager's log file.
 
     At the end all of them must leave with 0.
     """
-    (folder / 'manager.yaml').write_text(YAML)
-    (folder / 'controllers.yaml').write_text(CONTROLLERS_YAML)
+    (folder / 'manager.yaml').write_text(manager)
+    (folder / 'controllers.yaml').write_text(controllers)
     (folder / 'robot.urdf').write_text(urdf)
     log = folder / 'manager.log'
     parameters = ('--ros-args', '--params-file', str(folder / 'manager.yaml'))

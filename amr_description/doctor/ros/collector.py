@@ -57,6 +57,25 @@ PROBES: dict[str, Callable[[], Probe]] = {
 """Fields of Observations, and what makes the probe of each."""
 
 
+class Examination:
+    """Observes a graph step by step, for a program that has other work meanwhile."""
+
+    def __init__(self, node: Node, probes: Mapping[str, Callable[[], Probe]] = PROBES) -> None:
+        """Begin all ``probes``; whoever has ``node`` spins it, and destroys it in the end."""
+        self._probes = {name: make() for name, make in probes.items()}
+        for each in self._probes.values():
+            each.begin(node)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing more would be learnt by waiting."""
+        return all([each.is_done for each in self._probes.values()])
+
+    def observe(self) -> Observations:
+        """Return what was seen."""
+        return Observations(**{name: each.observe() for name, each in self._probes.items()})
+
+
 def collect(
     node: Node,
     spin: Spin,

@@ -121,7 +121,7 @@ class _Asked:
         types, values = self._types.response, self._parameters.values or {}
         return Manager(
             name=self.name,
-            answers=controllers is not None,
+            answers=not self._controllers.is_silent,
             controllers=tuple(
                 map(self._controller, controllers.controller if controllers else ())
             ),

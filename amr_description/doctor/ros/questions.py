@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calls of services of others that change nothing, answered or not."""
 
+import time
 from typing import Any
 
 from rcl_interfaces.srv import GetParameters, ListParameters
@@ -10,23 +11,49 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from rclpy.task import Future
 
+_AGAIN = 0.5
+"""s until a question is asked again: a server may throw away its first response to a client that
+it has not discovered yet."""
+_PATIENCE = 2.0
+"""s that a server has to answer."""
+_FEWEST_LOOKS = 60
+"""Looks for the answer meanwhile: a process that had no time to look may have missed it."""
+
 
 class Question:
-    """One call, which is made as soon as the service is reached."""
+    """A call that is made until it is answered; by being looked at."""
 
     def __init__(self, node: Node, service_type: Any, service: str, **fields: Any) -> None:
         self._client: Client = node.create_client(service_type, service)
         self._request = service_type.Request(**fields)
-        self._future: Future | None = None
+        self._futures: list[Future] = []
+        self._began = time.monotonic()
+        self._asked = self._last = 0.0
+        self._looks = 0
+        self._response: Any | None = None
 
     @property
     def response(self) -> Any | None:
         """The response; None: none has come yet."""
-        if self._future is None and self._client.service_is_ready():
-            self._future = self._client.call_async(self._request)
-        if self._future is None or not self._future.done() or self._future.exception():
-            return None
-        return self._future.result()
+        if self._response is not None:
+            return self._response
+        self._looks += 1
+        for future in self._futures:
+            if future.done() and not future.exception():
+                self._response = future.result()
+        now = time.monotonic()
+        if now - self._last >= _AGAIN and self._client.service_is_ready():
+            self._last, self._asked = now, self._asked or now
+            self._futures.append(self._client.call_async(self._request))
+        return self._response
+
+    @property
+    def is_silent(self) -> bool:
+        """Whether there is no server, or one that has had time to answer and did not."""
+        if self.response is not None or self._looks < _FEWEST_LOOKS:
+            return False
+        since = self._asked or self._began
+        return time.monotonic() - since >= _PATIENCE
 
 
 class ParameterQuestion:

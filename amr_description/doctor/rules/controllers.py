@@ -199,11 +199,11 @@ RULES: tuple[Rule, ...] = (
     hardware_inactive,
     controller_type_unknown,
     drive_contradicts_description,
+    former_parameters,
     controller_unconfigured,
     interfaces_claimed,
     no_joint_state_broadcaster,
     controller_inactive,
-    former_parameters,
 )
 
 

@@ -36,7 +36,7 @@ def tf_two_parents(seen: Observations) -> Iterator[Finding]:
             f"the frame '{child}' has {len(parents)} parents: {told}",
             f"a frame can have one parent: '{child}' jumps between them with each message, and "
             'lookups fail now and then',
-            _for_two_owners(child, edges, [*parents]),
+            _for_two_owners(child, edges),
         )
 
 
@@ -54,7 +54,7 @@ def tf_two_publishers(seen: Observations) -> Iterator[Finding]:
                 f'the transform {pair} has {len(moving)} publishers: {_publishers(moving)}',
                 'the frame jumps between what they say, and tf2 drops what is older '
                 '(TF_REPEATED_DATA, TF_OLD_DATA)',
-                _for_two_owners(child, moving, [edges[0].parent]),
+                _for_two_owners(child, moving),
             )
         elif len(static) > 1 and not _are_same(static):
             yield error(
@@ -295,22 +295,24 @@ def _are_same(edges: list[Edge]) -> bool:
     )
 
 
-def _for_two_owners(child: str, edges: list[Edge], parents: list[str]) -> str:
+def _for_two_owners(child: str, edges: list[Edge]) -> str:
     """Return which of several publishers should cease, and how."""
-    drives = [e.publisher for e in edges if _is_drive(e.publisher)]
-    if drives and len({each.publisher for each in edges}) > 1 and len(parents) == 1:
+    drives = [each for each in edges if _is_drive(each.publisher)]
+    others = [each for each in edges if not _is_drive(each.publisher)]
+    if not drives or not others:
+        return f'end all but one of {_nodes(edges)}'
+    drive, other = drives[0], others[0]
+    if drive.parent == other.parent:
         return (
-            f'ros2 param set {drives[0]} enable_odom_tf false, and in its YAML; or publish_tf: '
-            'false in the other one'
+            f'set enable_odom_tf: false of {drive.publisher}, or publish_tf: false of '
+            f'{_nodes([other])}'
         )
-    if drives and any(not _is_drive(each.publisher) for each in edges):
-        other = next(each for each in edges if not _is_drive(each.publisher))
+    if other.publisher.endswith('/robot_state_publisher'):
         return (
-            f"have {drives[0]} publish the transform of '{other.parent}' in the place of "
+            f"have {drive.publisher} publish the transform of '{other.parent}' in the place of "
             f"'{child}': base_frame_id: {other.parent}"
         )
-    last = edges[-1].publisher
-    return f'end all but one of {_nodes(edges)}, such as {last or "the last one"}'
+    return f"end {_nodes([other])}, or have it publish '{other.parent}' -> '{drive.parent}'"
 
 
 def _is_drive(node: str) -> bool:
