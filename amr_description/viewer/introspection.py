@@ -61,6 +61,25 @@ class Transforms:
 
 
 @dataclass(frozen=True, slots=True)
+class FindingInfo:
+    """What ``ros2 doctor`` finds wrong in the graph."""
+
+    severity: Literal['error', 'warning']
+    rule: str  #: its section in docs/doctor.md
+    what: str  #: what was seen
+    why: str  #: why it matters
+    fix: str  #: what mends it: a command, or what to do
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """All findings, to pages that watch ``findings``: errors first, the causes before the rest."""
+
+    type: ClassVar[str] = 'findings'
+    items: tuple[FindingInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class LogLine:
     """A message of /rosout."""
 

@@ -22,7 +22,7 @@ from typing import Any, ClassVar, Literal
 
 from amr_description.model.frames import Quaternion, Vector
 from amr_description.viewer.bags import BagWriting, Playhead, Recording
-from amr_description.viewer.introspection import Log, Topics, Transforms
+from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
 from amr_description.viewer.navigation import GoalStatus, Navigator
 
 PROTOCOL = 'amr.v1'
@@ -558,6 +558,7 @@ type ServerMessage = (
     | Topics
     | Transforms
     | Log
+    | Findings
     | GoalStatus
     | Recording
     | Playhead

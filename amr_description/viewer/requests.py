@@ -39,7 +39,7 @@ type Rate = float
 """Hz; its own type, because more than 100, or less than 0, is refused."""
 type Document = str
 """A text of any lines."""
-type Part = Literal['wheels', 'topics', 'rates', 'transforms', 'log']
+type Part = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings']
 """
 What the node collects only while a page shows it: a part of the states (wheels), or a message of
 the same name; ``rates`` are those of ``topics``.

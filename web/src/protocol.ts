@@ -548,6 +548,7 @@ export type ServerMessage =
   | Topics
   | Transforms
   | Log
+  | Findings
   | GoalStatus
   | Recording
   | Playhead
@@ -606,6 +607,25 @@ export interface Transforms {
   frames: FrameStatus[];
   /** nodes, by topic */
   publishers: Record<string, string[]>;
+}
+
+/** What `ros2 doctor` finds wrong in the graph. */
+export interface FindingInfo {
+  severity: 'error' | 'warning';
+  /** its section in docs/doctor.md */
+  rule: string;
+  /** what was seen */
+  what: string;
+  /** why it matters */
+  why: string;
+  /** what mends it: a command, or what to do */
+  fix: string;
+}
+
+/** All findings, to pages that watch `findings`: errors first, the causes before the rest. */
+export interface Findings {
+  type: 'findings';
+  items: FindingInfo[];
 }
 
 /** A message of /rosout. */
@@ -837,7 +857,7 @@ export const MOST_FIELDS = 256;
  * What the node collects only while a page shows it: a part of the states (wheels), or a message of
  * the same name; `rates` are those of `topics`.
  */
-export type Part = 'wheels' | 'topics' | 'rates' | 'transforms' | 'log';
+export type Part = 'wheels' | 'topics' | 'rates' | 'transforms' | 'log' | 'findings';
 
 /**
  * Drive a robot, with the keyboard, the joystick or a gamepad, at most 60 times per second.

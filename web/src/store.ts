@@ -8,7 +8,7 @@
  */
 import { batch, effect, signal, untracked, type Signal } from '@preact/signals';
 import type {
-  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, GoalStatus, Graph, Hello, Layout, LogLine,
+  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, Findings, GoalStatus, Graph, Hello, Layout, LogLine,
   Model, Notice, Playhead, Recording, RobotInfo, ServerMessage, SimulationStatus, SimulatorInfo, Topics, Transforms, World,
 } from './protocol';
 import type { Link } from './connection';
@@ -17,7 +17,7 @@ import { Freshness } from './freshness';
 /** What can change; a listener is called for the topics that it subscribed to. */
 export type Topic =
   | 'link' | 'hello' | 'graph' | 'model' | 'world' | 'layout' | 'simulation' | 'reset'
-  | 'controllers' | 'diagnostics' | 'topics' | 'transforms' | 'log' | 'driver' | 'commanders' | 'stops' | 'goal'
+  | 'controllers' | 'diagnostics' | 'topics' | 'transforms' | 'log' | 'findings' | 'driver' | 'commanders' | 'stops' | 'goal'
   | 'silence' | 'notice' | 'robot' | 'frame' | 'selection' | 'recording' | 'playhead' | 'writing';
 
 export interface NoticeEntry extends Notice {
@@ -66,6 +66,7 @@ export class Store {
     notice: signal<readonly NoticeEntry[]>([]),
     topics: signal<Topics | null>(null),
     transforms: signal<Transforms | null>(null),
+    findings: signal<Findings | null>(null),
     log: signal<readonly LogLine[]>([]),
     reset: signal(0), // how often time has jumped back
   } satisfies Record<Topic, Signal<unknown>>;
@@ -137,6 +138,11 @@ export class Store {
 
   get transforms(): Transforms | null {
     return this.cells.transforms.value;
+  }
+
+  /** What the doctor finds; null: it has not come since somebody looked. */
+  get findings(): Findings | null {
+    return this.cells.findings.value;
   }
 
   /** Lines of /rosout, the oldest first. */
@@ -388,6 +394,9 @@ export class Store {
       case 'transforms':
         cells.transforms.value = message;
         return;
+      case 'findings':
+        cells.findings.value = message;
+        return;
       case 'log':
         return this.addLines(message.lines);
       case 'reply':
@@ -418,6 +427,7 @@ export class Store {
     this.freshness.take(null, 0);
     this.cells.topics.value = null;
     this.cells.transforms.value = null;
+    this.cells.findings.value = null;
     this.cells.log.value = []; // another node counts anew
     if (before !== null && before.version !== hello.version) {
       const versions = `${before.version} → ${hello.version}`;

@@ -21,7 +21,7 @@ const WELL: DiagnosticItem = { level: 'ok', name: 'battery', message: 'full' };
 test('diagnostics are there, the worst first, and those that are not well are counted', async () => {
   const app = connected();
   const panel = healthPanel(app);
-  assert.deepEqual(texts(panel, '.empty'), ['Nobody publishes /diagnostics.', 'None.']);
+  assert.deepEqual(texts(panel, '.empty'), ['Examining …', 'Nobody publishes /diagnostics.', 'None.']);
   say(app, WELL, { level: 'error', name: 'loop', message: 'late' }, { level: 'warn', name: 'wheel', message: '' });
   await drawn();
   assert.deepEqual(texts(panel, '.unit-name'), ['loop', 'wheel', 'battery']);
@@ -101,4 +101,19 @@ test('notices are listed, the latest first, equal ones counted, until they are c
   await drawn();
   assert.deepEqual(texts(panel, '.notices li'), ['None.']);
   assert.equal(panel.element.querySelector('button'), null, 'there is nothing to clear');
+});
+
+test('findings have what was seen, why it matters, and a fix to copy; none are healthy', async () => {
+  const app = connected();
+  const panel = healthPanel(app);
+  const [rule, what, why] = ['two_clocks', '/clock has two publishers', 'time jumps'];
+  app.say({ type: 'findings', items: [{ severity: 'error', rule, what, why, fix: 'ros2 node list' }] });
+  await drawn();
+  assert.deepEqual(texts(panel, '.findings .unit-name'), [what]);
+  assert.deepEqual(texts(panel, '.findings .fine'), [why]);
+  assert.deepEqual(texts(panel, '.findings code'), ['ros2 node list']);
+  assert.equal(find(panel, '.findings .chip').dataset.tone, 'error');
+  app.say({ type: 'findings', items: [] });
+  await drawn();
+  assert.match(texts(panel, '.empty')[0]!, /^Nothing is wrong/);
 });

@@ -28,6 +28,7 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``topic_list.py``       … nodes, topics and rates
 ``transform_list.py``   … the TF tree with rates and ages
 ``log_lines.py``        … /rosout; its last warnings are kept
+``health.py``           … the findings of the doctor
 ``publications.py``     what pages publish by forms
 ``parameters.py``       parameters of any node, listed and set
 ``on_thread.py``        have the ROS thread do something, and wait for it

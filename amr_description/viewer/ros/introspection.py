@@ -10,8 +10,9 @@ from collections.abc import Callable, Sequence, Set as AbstractSet
 
 from rclpy.node import Node
 
-from amr_description.viewer.introspection import Log, Topics, Transforms
+from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
 from amr_description.viewer.requests import Part
+from amr_description.viewer.ros.health import Health
 from amr_description.viewer.ros.log_lines import LogLines
 from amr_description.viewer.ros.topic_list import list_topics, TopicRates
 from amr_description.viewer.ros.transform_list import TransformList
@@ -19,7 +20,7 @@ from amr_description.viewer.ros.transform_list import TransformList
 _EVERY = 3
 """Polls from one list of topics to the next: to make it takes 100 µs a topic."""
 
-type GraphMessage = Topics | Transforms | Log
+type GraphMessage = Topics | Transforms | Log | Findings
 type Tell = Callable[[Part, GraphMessage], object]
 
 
@@ -40,6 +41,7 @@ class Introspection:
         self._namespaces: tuple[str, ...] = ()
         self._log: LogLines | None = None
         self._polls = 0
+        self._health = Health(node, lambda found: tell('findings', found))
 
     def open(self) -> None:
         """The first page is there."""
@@ -57,11 +59,14 @@ class Introspection:
         log = self._log
         if part == 'log' and log is not None:
             return Log(log.kept)
+        if part == 'findings':
+            return self._health.latest
         return self._topics if part == 'topics' else None
 
     def watch(self, parts: AbstractSet[Part], namespaces: Sequence[str]) -> None:
         """Collect these parts; ``namespaces``: of robots with a TF of their own."""
         begun = parts - self._parts
+        self._health.watch(is_watched='findings' in parts)
         self._parts = parts
         if 'rates' not in parts:
             self._rates.measure(())
@@ -81,6 +86,7 @@ class Introspection:
     def poll(self) -> None:
         """Tell what is new."""
         self._polls += 1
+        self._health.poll()
         if self._log is not None and (lines := self._log.take()) and 'log' in self._parts:
             self._tell('log', Log(lines))
         if self._transforms is not None:

@@ -373,3 +373,24 @@ def test_a_form_has_the_fields_of_the_message_with_their_defaults():
     ]
     assert [each.value for each in orientation.fields] == [0.0, 0.0, 0.0, 1.0]
     assert not any(math.isnan(each.value) for each in orientation.fields)
+
+
+def test_findings_of_the_doctor_come_while_a_page_shows_them(ros, shown):
+    viewer, other, _ = ros
+    introspection, told = shown
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    publisher = other.create_publisher(TFMessage, '/tf_static', latched)
+    both = [TransformStamped(child_frame_id='laser') for _ in range(2)]
+    for each, parent in zip(both, ('base_link', 'base_footprint'), strict=True):
+        each.header.frame_id, each.transform.rotation.w = parent, 1.0
+    publisher.publish(TFMessage(transforms=both))
+    introspection.watch({'findings'}, ())
+    found = until(introspection, told, lambda message: message.items)
+    assert [each.rule for each in found] == ['tf_two_parents']
+    assert "'laser' has 2 parents" in found[0].what
+    assert introspection.latest('findings').items == found
+    introspection.watch(set(), ())
+    assert introspection.latest('findings') is None
+    other.destroy_publisher(publisher)
+    assert viewer.executor is not None
+    assert not [each for each in viewer.executor.get_nodes() if 'doctor' in each.get_name()]

@@ -1,9 +1,11 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** How it goes: diagnostics, the wheels on the ground, and what the node had to say. */
+/** How it goes: what the doctor finds, diagnostics, the wheels on the ground, what the node had to say. */
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { App, Panel } from '../app';
+import { commands } from '../commands';
 import { fixed } from '../format';
-import type { DiagnosticItem } from '../protocol';
+import type { DiagnosticItem, FindingInfo } from '../protocol';
 import { robotOf, wheelsOf, type WheelReading } from '../readings';
 import type { NoticeEntry, Store } from '../store';
 import { Button, Chip, Section, Table } from '../ui';
@@ -20,7 +22,7 @@ const UNEVEN =
 const WHEEL_COLUMNS = ['Wheel', 'rad/s', 'Load, N', 'Slip along', 'across'];
 
 export function healthPanel(app: App): Panel {
-  return panelOf(app, { id: 'health', title: 'Health', watches: ['wheels'] }, HealthPanel);
+  return panelOf(app, { id: 'health', title: 'Health', watches: ['wheels', 'findings'] }, HealthPanel);
 }
 
 /** How many diagnostics of the shown robot are not well, and what they are at the worst. */
@@ -33,6 +35,9 @@ export function diagnosticsToLookAt(store: Store): { count: number; tone: 'warni
 function HealthPanel({ app, state }: PanelProps) {
   return (
     <>
+      <Section title="Findings">
+        <Findings store={app.store} />
+      </Section>
       <Section title="Diagnostics">
         <Diagnostics store={app.store} />
       </Section>
@@ -42,6 +47,44 @@ function HealthPanel({ app, state }: PanelProps) {
       </Section>
     </>
   );
+}
+
+/** What `ros2 doctor` says of the graph, each with what mends it. */
+function Findings({ store }: { store: Store }) {
+  const { findings } = store;
+  if (findings === null) {
+    return <p class="empty">Examining …</p>;
+  }
+  if (findings.items.length === 0) {
+    return <p class="empty">Nothing is wrong with nodes, topics, time, frames, controllers and sensors.</p>;
+  }
+  return (
+    <ul class="rows findings">
+      {findings.items.map((finding) => (
+        <FindingRow key={`${finding.rule} ${finding.what}`} {...finding} />
+      ))}
+    </ul>
+  );
+}
+
+function FindingRow({ severity, rule, what, why, fix }: FindingInfo) {
+  return (
+    <li class="unit">
+      <span class="unit-name" title={`docs/doctor.md#${rule}`}>
+        {what}
+      </span>
+      <Chip tone={severity}>{severity}</Chip>
+      <span class="fine">{why}</span>
+      <Fix text={fix} />
+    </li>
+  );
+}
+
+/** A command with a button that copies it; words as they are. */
+function Fix({ text }: { text: string }) {
+  const place = useRef<HTMLSpanElement>(null);
+  useLayoutEffect(() => place.current?.replaceChildren(...commands(`\`${text}\``)), [text]);
+  return <span class="fix" ref={place} />;
 }
 
 interface Item {
