@@ -43,8 +43,15 @@ class Process(NamedTuple):
     """Clock ticks from boot to its start; with the pid, which is reused, its identity."""
 
 
-def processes(run: str) -> Iterator[Process]:
-    """Yield the processes of this machine, without zombies; ``run``: whose mark to look for."""
+def processes(run: str, since: int = 0) -> Iterator[Process]:
+    """
+    Yield the processes of this machine, without zombies.
+
+    Args:
+        run: whose mark to look for.
+        since: clock ticks from boot; those that started before are known to have no mark. To read
+            the environment of a process takes longer than all else.
+    """
     mark = os.fsencode(f'{RUN_VARIABLE}={run}')
     for name in os.listdir('/proc'):
         if name.isdecimal():
@@ -53,8 +60,9 @@ def processes(run: str) -> Iterator[Process]:
                     # 'pid (any name) state parent …', 22 fields up to the start
                     state, parent, *rest = file.read().rpartition(b')')[2].split()
                 if state not in b'ZX':
-                    marked = mark in _environment(name)
-                    yield Process(int(name), int(parent), marked, int(rest[17]))
+                    start = int(rest[17])
+                    marked = start >= since and mark in _environment(name)
+                    yield Process(int(name), int(parent), marked, start)
 
 
 def _environment(pid: str) -> list[bytes]:
@@ -63,6 +71,13 @@ def _environment(pid: str) -> list[bytes]:
             return file.read().split(b'\0')
     except PermissionError:  # another user's
         return []
+
+
+def _start(pid: int) -> int:
+    """Return when a process started, in clock ticks from boot; 0: it has ended."""
+    with contextlib.suppress(OSError), open(f'/proc/{pid}/stat', 'rb') as file:
+        return int(file.read().rpartition(b')')[2].split()[19])
+    return 0
 
 
 def family(processes: Iterable[Process], root: int, spare: int) -> list[Process]:
@@ -91,13 +106,15 @@ class FamilySearch:
     def __init__(self, run: str, root: int, spare: int) -> None:
         """Take the arguments of :func:`processes` and :func:`family`."""
         self._run, self._root, self._spare = run, root, spare
+        # The programs of a run start after its orchestrator, whose pid is its own while it lives.
+        self._since = _start(root) if os.getppid() == root else 0
         self._known: set[tuple[int, int]] = set()  # (pid, start)
 
     def __call__(self) -> list[int]:
         """Return the pids of those that are running now."""
         listed = [
             process._replace(marked=process.marked or (process.pid, process.start) in self._known)
-            for process in processes(self._run)
+            for process in processes(self._run, self._since)
         ]
         found = family(listed, self._root, self._spare)
         self._known.update((process.pid, process.start) for process in found)
@@ -178,8 +195,9 @@ def main(lifeline: int, run: str, orchestrator: int) -> int:
     """Wait for the end of the orchestrator and end the rest; return 1 if something is left."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
+    find = FamilySearch(run, orchestrator, os.getpid())
     os.read(lifeline, 1)  # nobody ever writes: it returns when the writing end is closed
-    ended, not_ended = end(FamilySearch(run, orchestrator, os.getpid()))
+    ended, not_ended = end(find)
     remove_unused_segments()
     if ended:
         _log(f'[WARNING] [guardian]: ended what was left: pid {_list(ended)}')

@@ -34,6 +34,7 @@ import io
 import json
 import os
 from pathlib import Path
+import pkgutil
 import runpy
 import signal
 import socket
@@ -51,6 +52,7 @@ from support.paths import ROOT
 from amr_description.forking import (
     command_line,
     ForkTracing,
+    load_type_supports,
     note_files_of_modules,
     run_to_the_end,
 )
@@ -63,28 +65,20 @@ _PR_SET_CHILD_SUBREAPER = 36
 # What an interpreter, a loader or a library reads as it starts, or as it is imported.
 _READ_AT_START = ('PYTHON', 'LANG', 'LC_', 'LD_', 'RMW_', 'MUJOCO', 'OMP_', 'OPENBLAS', 'MALLOC')
 _READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
-# One server has what ``ros2`` and most nodes load, the other the simulator and whole stacks.
+# One server has what ``ros2`` and nodes of tests load, the other our nodes and whole stacks. To
+# fork takes 5 ms for each 70 MB that are loaded, so the first has nothing of the second.
 _LIGHT = """
-amr_description.cli.main amr_description.cli.ros2 amr_description.cli.action.send_goal
-amr_description.cli.lifecycle amr_description.cli.param.load amr_description.cli.service.call
-amr_description.cli.topic.echo amr_description.cli.topic.hz amr_description.cli.topic.pub
-amr_description.nodes.spawner numpy rosidl_generator_py std_msgs.msg std_srvs.srv
+amr_description.cli.* bz2 geometry_msgs.msg lzma nav_msgs.msg numpy random rosidl_generator_py
+sensor_msgs.msg shutil std_msgs.msg std_srvs.srv tempfile tf2_msgs.msg
 """
-_SIMULATOR = 'amr_description.nodes.mujoco_sim'
 _BRINGUP = 'amr_description.bringup.main'
 _BRINGUP_SCRIPT = ('amr_description', 'bringup')
 _TESTING = 'amr_description.testing'
+_NODES = 'amr_description.nodes.'
 _STACKS = f"""
-{_SIMULATOR} {_BRINGUP} amr_description.nodes.create amr_description.nodes.graph_watch
-amr_description.doctor.ros.collector amr_description.nodes.start_failure
-amr_description.nodes.joint_state_publisher amr_description.nodes.robot_state_publisher
-amr_description.nodes.ros2_control_node amr_description.nodes.spawner
-amr_description.nodes.teleop_twist_keyboard amr_description.nodes.viewer
+{_BRINGUP} {_NODES}* amr_description.controllers.* amr_description.doctor.ros.collector
+amr_description.hardware.* bz2 lzma shutil
 """
-_WITH_MUCH_TO_LOAD = {
-    _SIMULATOR, 'amr_description.nodes.ros2_control_node', 'amr_description.nodes.viewer'
-}  # fmt: skip
-_MAIN_PROGRAMS = ('amr_description.nodes.', _BRINGUP)
 # How the commands of ``amr_description.entry.python_command`` and of the guardian begin.
 _FORKED_BY_BRINGUP = ([sys.executable, '-P'], [sys.executable, '-I'])
 _ROOM = 16_384
@@ -175,11 +169,8 @@ def _program(args):
 
 def _is_large(program):
     """Whether the server of whole stacks has what it loads."""
-    return (
-        _is_bringup(program)
-        or _tests_robots(program)
-        or not _WITH_MUCH_TO_LOAD.isdisjoint(program[1:2])
-    )
+    module = os.fsdecode([*program, ''][1])
+    return _is_bringup(program) or _tests_robots(program) or module.startswith(_NODES)
 
 
 def _tests_robots(program):
@@ -388,6 +379,8 @@ def _execute(program, base):
     if kind == '-m':
         sys.argv = rest
         sys.path[:] = dict.fromkeys([os.getcwd(), *path, *base])
+        if not hasattr(sys.modules.get(rest[0]), '__path__'):
+            sys.modules.pop(rest[0], None)  # the main program must not be loaded under its name
         runpy.run_module(rest[0], run_name='__main__', alter_sys=True)
     elif kind == '-c':
         sys.argv = ['-c', *rest[1:]]
@@ -479,6 +472,15 @@ def _end_without_modules():
     return modules
 
 
+def _modules(name):
+    """The modules that a name stands for: those below a package, if it ends with ``*``."""
+    if not name.endswith('.*'):
+        return [name]
+    package = importlib.import_module(name.removesuffix('.*'))
+    below = pkgutil.walk_packages(package.__path__, f'{package.__name__}.')
+    return [each.name for each in below if not each.name.endswith('.__main__')]
+
+
 def serve(base):
     """
     Import the modules that the command line names, fork programs, and run them in the forks.
@@ -488,9 +490,9 @@ def serve(base):
     """
     loaded = _end_without_modules()
     for name in sys.argv[2:-1]:
-        importlib.import_module(name)
-    for name in [name for name in sys.modules if name.startswith(_MAIN_PROGRAMS)]:
-        del sys.modules[name]  # what is run as the main program must not be loaded under its name
+        for each in _modules(name):
+            importlib.import_module(each)
+    load_type_supports()
     # The threads that this warning is about are those that LTTng starts and no program needs.
     warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
     note_files_of_modules()

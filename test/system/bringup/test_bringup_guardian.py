@@ -51,6 +51,8 @@ def test_the_mark_is_read_from_the_environment():
         (found,) = [p for p in processes(run) if p.marked]
         assert found[:3] == (process.pid, os.getpid(), True)
         assert not any(p.marked for p in processes(run[:-1]))
+        assert [p.pid for p in processes(run, since=found.start) if p.marked] == [found.pid]
+        assert not any(p.marked for p in processes(run, since=found.start + 1))
         process.kill()
         os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
         assert process.pid not in [p.pid for p in processes(run)], 'a zombie counts as ended'
@@ -64,7 +66,9 @@ def test_a_process_found_once_is_found_again_but_not_another_of_its_pid(monkeypa
             [Process(21, 1, False, start=9)],
         ]
     )
-    monkeypatch.setattr('amr_description.bringup.guardian.processes', lambda run: next(looks))
+    monkeypatch.setattr(
+        'amr_description.bringup.guardian.processes', lambda run, since: next(looks)
+    )
     search = FamilySearch('run', ROOT, GUARDIAN)
     assert [search(), search(), search()] == [[20, 21], [21], []]
 
