@@ -27,6 +27,7 @@ _SIOCGIFADDR = 0x8915
 _REQUEST = struct.Struct('16s24x')  # ifreq: the name, and room for an address
 _ADDRESS = slice(20, 24)
 _UNSYNCHRONISED = 5  # TIME_ERROR of adjtimex(2)
+_UFW_IS_ON = re.compile(r'^ENABLED=yes', re.MULTILINE)
 _STALL = re.compile(r'^full avg10=([\d.]+)', re.MULTILINE)
 _MODULE = '_rclpy_pybind11'
 
@@ -47,6 +48,7 @@ def read_machine(variables: Mapping[str, str]) -> Machine:
         stalled_by_memory=_stalled(),
         disks=tuple(_disks(variables)),
         interfaces=tuple(_interfaces()),
+        firewall=_firewall(),
         is_clock_synchronised=_is_clock_synchronised(),
     )
 
@@ -134,6 +136,14 @@ def _addresses(name: str) -> tuple[str, ...]:
         answer = fcntl.ioctl(any_socket.fileno(), _SIOCGIFADDR, request)
         return (socket.inet_ntoa(answer[_ADDRESS]),)
     return ()
+
+
+def _firewall() -> str:
+    """Return the name of an active firewall, as far as a user may see one."""
+    with suppress(OSError):
+        if _UFW_IS_ON.search(Path('/etc/ufw/ufw.conf').read_text()):
+            return 'ufw'
+    return 'firewalld' if Path('/run/firewalld').is_dir() else ''
 
 
 def _is_clock_synchronised() -> bool | None:

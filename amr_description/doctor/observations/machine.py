@@ -75,5 +75,7 @@ class Machine:
     """Share of the last 10 s in which all programs waited for memory, 0 to 1."""
     disks: tuple[Disk, ...] = ()
     interfaces: tuple[Interface, ...] = ()
+    firewall: str = ''
+    """The name of the one that is active: ``ufw``; empty: none, or not known."""
     is_clock_synchronised: bool | None = None
     """Whether the kernel says that some service keeps the clock right; None: not known."""

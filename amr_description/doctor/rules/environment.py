@@ -200,6 +200,32 @@ def static_peers(seen: Observations) -> Iterator[Finding]:
         )
 
 
+def silent_peers(seen: Observations) -> Iterator[Finding]:
+    """Of hosts that are named as peers, nodes are found."""
+    if seen.environment is None or seen.machine is None or any(static_peers(seen)):
+        return
+    own = {address for each in seen.machine.interfaces for address in each.addresses}
+    own |= {'localhost', '127.0.0.1'}
+    peers = [each for each in seen.environment.value(_PEERS).split(';') if each]
+    others = [each for each in peers if each not in own]
+    if not others or not _is_of_this_host(seen):
+        return
+    firewall = seen.machine.firewall
+    ports = {
+        'ufw': f'sudo ufw allow proto udp from {others[0]}',
+        'firewalld': f'sudo firewall-cmd --zone=trusted --add-source={others[0]}',
+    }
+    yield warning(
+        'silent_peers',
+        f'{_PEERS} names {", ".join(others)}, and no node of another host is found'
+        + (f'; {firewall} is active here' if firewall else ''),
+        'nothing runs there, in this domain, or its answers do not reach this host',
+        ports[firewall]
+        if firewall in ports
+        else f'see whether it answers: ping -c 1 {others[0]}; and name this host there, too',
+    )
+
+
 def discovery_server(seen: Observations) -> Iterator[Finding]:
     """With ``ROS_DISCOVERY_SERVER`` nodes are found through that server alone."""
     if seen.environment is None or not seen.environment.unheard_servers:
@@ -268,9 +294,17 @@ RULES: tuple[Rule, ...] = (
     discovery_range,
     localhost_only,
     static_peers,
+    silent_peers,
     discovery_server,
     profiles_file,
 )
+
+
+def _is_of_this_host(seen: Observations) -> bool:
+    """Return whether the graph was observed, and shows no node of another host."""
+    if seen.graph is None:
+        return seen.processes is not None and seen.processes.is_alone is True
+    return not any(each.host for each in seen.graph.nodes)
 
 
 def _sourced(environment: Environment) -> dict[str, list[str]]:

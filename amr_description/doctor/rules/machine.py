@@ -175,6 +175,21 @@ def multicast(seen: Observations) -> Iterator[Finding]:
         )
 
 
+def clock_unsynchronised(seen: Observations) -> Iterator[Finding]:
+    """Clocks of hosts that share transforms and scans agree."""
+    if seen.machine is None or seen.machine.is_clock_synchronised is not False:
+        return
+    hosts = sorted({each.host for each in seen.graph.nodes if each.host}) if seen.graph else []
+    if hosts:
+        yield warning(
+            'clock_unsynchronised',
+            f'nothing keeps the clock of this host right, and nodes of {_hosts(len(hosts))} are '
+            'in the graph',
+            'stamps of one host are in the future, or too old, for the other one: tf2 drops them',
+            'sudo timedatectl set-ntp true; or sudo apt install chrony, on both',
+        )
+
+
 def encoding(seen: Observations) -> Iterator[Finding]:
     """URDFs, YAML files and messages are UTF-8."""
     machine = seen.machine
@@ -197,8 +212,13 @@ RULES: tuple[Rule, ...] = (
     overloaded,
     loopback_down,
     multicast,
+    clock_unsynchronised,
     encoding,
 )
+
+
+def _hosts(number: int) -> str:
+    return f'{number} others' if number > 1 else 'another one'
 
 
 def _has_wheels(seen: Observations) -> bool:

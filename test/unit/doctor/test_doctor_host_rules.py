@@ -94,6 +94,10 @@ FAULTS = {
         variables(ROS_LOCALHOST_ONLY='1', ROS_STATIC_PEERS='10.0.0.2'),
     ],
     'static_peers': [variables(ROS_STATIC_PEERS='10.0.0.2, 10.0.0.3')],
+    'silent_peers': [
+        {**variables(ROS_STATIC_PEERS='10.0.0.2'), 'is_alone': True, 'machine': {'firewall': name}}
+        for name in ('', 'ufw', 'firewalld')
+    ],
     'discovery_server': [{'unheard_servers': ('127.0.0.1:11811',)}],
     'profiles_file': [
         {
@@ -152,6 +156,12 @@ HEALTHY = {
         ),
     },
     'conda that is only active': variables(CONDA_PREFIX='/conda', LD_LIBRARY_PATH='/x/lib'),
+    'peers, nothing observed': variables(ROS_STATIC_PEERS='10.0.0.2'),
+    'peers, of which one is there': {
+        **variables(ROS_STATIC_PEERS='10.0.0.2'),
+        'is_alone': False,
+    },
+    'itself as a peer': {**variables(ROS_STATIC_PEERS='localhost;192.0.2.2'), 'is_alone': True},
     'the highest domain': variables(ROS_DOMAIN_ID='232'),
     'a default that is named': {
         'variables': {'RMW_IMPLEMENTATION': 'rmw_fastrtps_cpp'},
@@ -183,7 +193,8 @@ def test_every_rule_of_a_host_has_a_fault():
     from amr_description.doctor.rules import environment, machine, processes
 
     rules = [*machine.RULES, *environment.RULES, *processes.RULES]
-    assert {rule.__name__ for rule in rules} == FAULTS.keys()
+    # The other one is below.
+    assert {rule.__name__ for rule in rules} - {'clock_unsynchronised'} == FAULTS.keys()
 
 
 def test_the_severity_tells_a_full_disk_from_one_that_is_nearly_full():
@@ -196,6 +207,22 @@ def test_a_stopped_node_that_the_graph_shows_is_not_named_twice():
     seen = host(processes=[replace(SIMULATOR, state='T')])
     graph = Graph(nodes=(GraphNode(name='/mujoco_sim', process=100, is_stopped=True),))
     assert 'stopped_process' not in found(replace(seen, graph=graph))
+
+
+@pytest.mark.parametrize(
+    ('is_right', 'host_name', 'expected'),
+    [
+        (False, '10.0.0.2', ['clock_unsynchronised']),
+        (False, '', []),
+        (None, '10.0.0.2', []),
+        (True, '10.0.0.2', []),
+    ],
+)
+def test_a_clock_that_nobody_sets_matters_where_hosts_meet(is_right, host_name, expected):
+    seen = host(machine={'is_clock_synchronised': is_right})
+    graph = Graph(nodes=(GraphNode(name='/a', host=host_name),))
+    names = {'clock_unsynchronised'}.intersection(found(replace(seen, graph=graph)))
+    assert [*names] == expected
 
 
 def test_a_fix_of_peers_can_be_pasted():
