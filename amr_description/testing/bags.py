@@ -130,7 +130,11 @@ def _forget(sim: Recordable) -> None:
 
 def _line(path: Path) -> str:
     shown = shlex.quote(str(path))
-    return f'{path}: ros2 bag info {shown}; again: ros2 run amr_description replay {shown}'
+    return (
+        f'{path}\n'
+        f'  to look at it:      ros2 run amr_description viewer --bag {shown}\n'
+        f'  to drive it again:  ros2 run amr_description replay {shown}'
+    )
 
 
 def _keep(item: pytest.Item, report: pytest.TestReport, folder: Path) -> Iterator[Path]:

@@ -9,6 +9,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``plugin_controllers.py``   starts the controllers that stand for Gazebo's plugins
 ``other_clock.py``          ends, or warns, where another simulator publishes ``/clock``
 ``run_recording.py``        begins and ends recordings, as the parameter ``record`` says
+``link_transforms.py``      transforms of links, for a recording
 ``run_recorder.py``         records what this process publishes, and the commands, to a bag
 ``loop_timing.py``          warns when real time is not kept, with the slow stage of the loop
 

@@ -185,6 +185,11 @@ class RunRecorder:
         if self._declare(topic, type_name, _LATCHED) and self._latched.get(topic) != data:
             self._add(topic, data, is_latched=True)
 
+    def add_sample(self, topic: str, type_name: str, data: bytes) -> None:
+        """Record a message of a cycle, if that is a tick."""
+        if self._is_in_tick and self._declare(topic, type_name, QosProfile()):
+            self._add(topic, data)
+
     def unlatch(self, topic: str) -> None:
         """Have files that begin later without the message of a topic."""
         with self._adding:

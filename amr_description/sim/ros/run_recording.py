@@ -27,6 +27,13 @@ from amr_description.model.controller_files import files_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.cdr_padding import serialize
+from amr_description.sim.ros.link_transforms import (
+    FIXED,
+    LinkTransforms,
+    MOVING,
+    SpawnedRobot,
+    TYPE as TF_TYPE,
+)
 
 if TYPE_CHECKING:  # its libraries are for who records
     from amr_description.sim.ros.run_recorder import RunRecorder
@@ -49,6 +56,8 @@ class RunRecording:
         has_ticked: Callable[[int], bool],
         is_paced: Callable[[], bool],
         describe: Callable[[], RunDescription],
+        robots: Callable[[], Sequence[SpawnedRobot]],
+        transforms: LinkTransforms,
         log: Log,
     ) -> None:
         """
@@ -63,11 +72,14 @@ class RunRecording:
             has_ticked: whether controllers have ticked at a time, ns.
             is_paced: whether cycles wait for the wall clock.
             describe: of what the run consists now.
+            robots: those that are there now.
+            transforms: of their links.
             log: of the simulator.
         """
         self._node, self._publisher, self._log = node, publisher, log
         self._on_loop, self._time, self._describe = on_loop, time, describe
         self._has_ticked, self._is_paced = has_ticked, is_paced
+        self._robots, self._transforms = robots, transforms
         self._recorder: RunRecorder | None = None
         self._described: set[str] = set()
         """The topics of descriptions."""
@@ -100,6 +112,8 @@ class RunRecording:
             self._recorder = recorder
             self.update()
             recorder.on_commands = self.update
+            self.restart()
+            self._publisher.reporters.append(self._report)
 
         self._on_loop(attach)
         self._log(Severity.INFO, f'Recording to {folder}')
@@ -118,15 +132,33 @@ class RunRecording:
         for topic, text in descriptions.items():
             self._recorder.latch(topic, TYPE, _message(text))
         self._described = set(descriptions)
+        fixed = self._transforms.set_robots(self._robots())
+        self._recorder.latch(FIXED, TF_TYPE, serialize(fixed))
         run = replace(run, commands=tuple(sorted(self._recorder.commands)))
         self._recorder.latch(TOPIC, TYPE, _message(run.to_text()))
+
+    def restart(self) -> None:
+        """Record the transforms of links in the next cycle; on the control thread."""
+        self._transforms.restart()
+
+    def _report(self, time: int) -> None:
+        """Record the transforms of links, if they are due."""
+        if self._recorder is not None and self._has_ticked(time):
+            message = self._transforms.moving(time)
+            if message is not None:
+                self._recorder.add_sample(MOVING, TF_TYPE, serialize(message))
 
     def end(self) -> None:
         """End the recording, if there is one; its bag is complete on return."""
         recorder, self._recorder = self._recorder, None
         if recorder is None:
             return
-        self._on_loop(lambda: self._publisher.set_tape(None))
+
+        def detach() -> None:
+            self._publisher.set_tape(None)
+            self._publisher.reporters.remove(self._report)
+
+        self._on_loop(detach)
         try:
             count = recorder.close()
         except BagError as error:

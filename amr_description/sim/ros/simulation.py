@@ -40,6 +40,7 @@ from amr_description.ros.runtime import end_wait
 from amr_description.sim.cameras import CHOICES
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
+from amr_description.sim.ros.link_transforms import LinkTransforms, SpawnedRobot
 from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.ros.run_recording import controllers_text, on_loop, RunRecording
 from amr_description.sim.ros.sensors.manager import SensorManager
@@ -259,6 +260,12 @@ class Simulation:
             has_ticked=self._has_ticked,
             is_paced=self._is_paced,
             describe=self._describe_run,
+            robots=lambda: [
+                SpawnedRobot(each.name, each.origin.namespace, each.origin.robot)
+                for each in self.entities
+                if each.origin
+            ],
+            transforms=LinkTransforms(self.world),
             log=self.log,
         )
         recording.on_begin = self._ground_truth.restart
@@ -394,6 +401,7 @@ class Simulation:
             world, loop = self.world, self.loop_thread.loop
             now = world.time
             self._ground_truth.restart()
+            self.recording.restart()
             if state:
                 world.reset()
             world.time = 0 if time else now

@@ -2,11 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """A run of the simulator in a bag: equal runs have equal files, and it can be run again."""
 
+import numpy as np
 import pytest
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import JointState
 from support.paths import ROOT
+from tf2_msgs.msg import TFMessage
 
 from amr_description.bag.reader import BagReader
 from amr_description.errors import SimulationError
+from amr_description.model.kinematics import joint_transform
+from amr_description.model.urdf import load
 from amr_description.testing.recorded_run import differences, read_run
 from amr_description.testing.simulation import Simulation
 
@@ -54,7 +60,8 @@ def test_every_message_of_a_run_is_there(bags):
     assert [time for time, _ in run.messages['/clock']] == [10**7 * n for n in range(50)]
     counts = {topic: len(messages) for topic, messages in run.messages.items()}
     assert counts['/joint_states'] == 50
-    assert counts['/odom'] == counts['/tf'] == counts['/ground_truth/odom'] == 25
+    assert counts['/odom'] == counts['/ground_truth/odom'] == 25
+    assert counts['/tf'] == 25 + 10  # those of odometry, and of links
     assert counts['/diff_drive_controller/cmd_vel'] == run.commands == 4
     assert counts['/robot_description'] == counts['/mujoco_sim/world'] == 1
     with BagReader(bags / 'first' / 'drive') as reader:
@@ -62,6 +69,26 @@ def test_every_message_of_a_run_is_there(bags):
         hashes = [topic.type_description_hash for topic in reader.topics.values()]
     assert all(each.startswith('RIHS01_') for each in hashes)
     assert run.active == ('diff_drive_controller', 'joint_state_broadcaster')
+
+
+def test_all_links_have_transforms_as_they_truly_are(bags):
+    run = read_run(bags / 'first' / 'drive')
+    moving = [deserialize_message(data, TFMessage) for _, data in run.messages['/tf']]
+    (fixed,) = [deserialize_message(data, TFMessage) for _, data in run.messages['/tf_static']]
+    frames = {each.child_frame_id for message in (*moving, fixed) for each in message.transforms}
+    robot = load(URDF)
+    assert frames == {link.name for link in robot.links}
+    joint = robot.joint('joint_wheel_front_left')
+    states = dict(run.messages['/joint_states'])
+    for (time, _), message in zip(run.messages['/tf'], moving, strict=True):
+        for each in message.transforms:
+            if each.child_frame_id == joint.child:
+                state = deserialize_message(states[time], JointState)
+                angle = state.position[state.name.index(joint.name)]
+                expected, found = joint_transform(joint, angle), each.transform.rotation
+                assert abs(
+                    np.dot(expected.rotation, (found.x, found.y, found.z, found.w))
+                ) == pytest.approx(1.0, abs=1e-9)
 
 
 def test_recorded_commands_make_the_recorded_drive_again(bags):

@@ -72,7 +72,11 @@ def test_a_test_that_fails_leaves_its_bag_and_one_that_passes_none(run, tmp_path
     (text,) = run.end('test_a.py::test_y[a/b-1.5]', failed=True)
     assert files(tmp_path) == ['ros_bags/test_a.test_y.a.b-1.5.mcap']
     path = tmp_path / 'ros_bags' / 'test_a.test_y.a.b-1.5.mcap'
-    assert text == f'{path}: ros2 bag info {path}; again: ros2 run amr_description replay {path}'
+    assert [line.split() for line in text.splitlines()] == [
+        [str(path)],
+        f'to look at it: ros2 run amr_description viewer --bag {path}'.split(),
+        f'to drive it again: ros2 run amr_description replay {path}'.split(),
+    ]
 
 
 def test_a_test_with_resets_leaves_a_file_for_each_part(run, tmp_path):
