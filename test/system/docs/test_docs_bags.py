@@ -93,9 +93,14 @@ def test_a_simulation_is_recorded_and_driven_again(tmp_path):
     ]
 
 
-@pytest.mark.parametrize('flag', ['--bag my_bag', '--ros-args -p bag_folder'])
-def test_the_page_shows_a_bag_and_records_one(folder, flag):
-    line = f'ros2 run amr_description viewer {flag}'
+@pytest.mark.parametrize(
+    'line',
+    [
+        'ros2 run amr_description viewer --bag my_bag',
+        'ros2 run amr_description viewer --ros-args -p bag_folder',
+    ],
+)
+def test_the_page_shows_a_bag_and_records_one(folder, line):
     with Program(*command(PAGE, line), cwd=folder) as program:
         program.expect('The page is at http://')
         assert program.end(signal.SIGINT) == 0

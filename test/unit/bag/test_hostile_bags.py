@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whatever is in a bag, it is read, or an error of one line says why not."""
 
+import shutil
 import sqlite3
 
 import pytest
@@ -20,15 +21,17 @@ def bags(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    'seeds', [range(120), pytest.param(range(1000, 21_000), marks=pytest.mark.long)]
+    'seeds', [range(120), pytest.param(range(1000, 11_000), marks=pytest.mark.long)]
 )
 def test_mutated_bags_are_read_or_refused(bags, tmp_path, seeds):
     results = {'read': 0, 'refused': 0}
     for seed in seeds:
-        bag = tmp_path / f'{seed}'
-        mutate(bags[seed % len(bags)], bag, seed)
-        error = read_all(bag, tmp_path / f'{seed}_new')
+        folder = tmp_path / f'{seed}'
+        folder.mkdir()
+        mutate(bags[seed % len(bags)], folder / 'bag', seed)
+        error = read_all(folder / 'bag', folder / 'new')
         results['refused' if error else 'read'] += 1
+        shutil.rmtree(folder)  # thousands would fill the disk
     assert min(results.values()) > len(seeds) / 5
 
 
