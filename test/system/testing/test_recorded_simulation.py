@@ -2,10 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A run of the simulator in a bag: equal runs have equal files, and it can be run again."""
 
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
+from simulation_interfaces.msg import SimulationState
+from simulation_interfaces.srv import SetSimulationState
 from support.paths import ROOT
 from tf2_msgs.msg import TFMessage
 
@@ -41,10 +45,37 @@ def bags(tmp_path_factory):
             sim.end_recording()
         with pytest.raises(SimulationError, match='is there already; another name will do'):
             sim.record(folder / 'first')
-        sim.reset()
-        sim.record(folder / 'third' / 'drive')
-        sim.replay(folder / 'first' / 'drive')
+        in_real_time(sim, folder / 'played' / 'drive')
+        for name, again in (('first', 'third'), ('played', 'fourth')):
+            sim.reset()
+            sim.record(folder / again / 'drive')
+            sim.replay(folder / name / 'drive')
+            sim.end_recording()
     return folder
+
+
+def in_real_time(sim, bag):
+    """Drive while time passes by itself, by commands that come whenever they come."""
+    sim.reset()
+    sim.record(bag)
+    heard = []
+    subscription = sim.node.create_subscription(Odometry, '/odom', heard.append, 10)
+    publisher = sim.node.create_publisher(TwistStamped, '/diff_drive_controller/cmd_vel', 10)
+    command = TwistStamped()
+    command.twist.linear.x, command.twist.angular.z = 0.5, 0.7
+
+    def has_driven():
+        publisher.publish(command)
+        return heard and heard[-1].pose.pose.position.x > 0.1
+
+    sim._running.set_parameter('real_time_factor', 3.0)  # so that a thread writes
+    state = SimulationState
+    sim.ask(SetSimulationState, state=state(state=state.STATE_PLAYING))
+    sim.wait(has_driven, 'the drive')
+    sim.ask(SetSimulationState, state=state(state=state.STATE_PAUSED))
+    sim.end_recording()
+    sim.node.destroy_subscription(subscription)
+    sim.node.destroy_publisher(publisher)
 
 
 def test_equal_runs_have_equal_files_however_they_are_stepped(bags):
@@ -95,6 +126,12 @@ def test_recorded_commands_make_the_recorded_drive_again(bags):
     first, third = (read_run(bags / name / 'drive') for name in ('first', 'third'))
     assert len(first.messages) >= 9
     assert differences(first, third) == []
+
+
+def test_so_do_those_of_a_run_in_real_time_which_came_at_any_time(bags):
+    played, fourth = (read_run(bags / name / 'drive') for name in ('played', 'fourth'))
+    assert played.commands >= 2
+    assert differences(played, fourth) == []
 
 
 def test_a_recording_from_the_start_has_a_file_for_each_reset(bags):
