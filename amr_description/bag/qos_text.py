@@ -17,6 +17,7 @@ from amr_description.bag.yaml_text import shown
 from amr_description.errors import BagError
 from amr_description.text import did_you_mean, quote, shorten
 
+_LARGEST = 2**64 - 1  # size_t of C++
 INFINITE = 2**63 - 1
 """Nanoseconds."""
 _SECOND = 10**9
@@ -134,7 +135,7 @@ def _value(name: str, value: Any, what: str) -> Any:
             f'{what}: want {"true or false" if wanted is bool else "a number from 0 on"}, '
             f'not {shown(value)}'
         )
-    return value
+    return value if wanted is bool else min(value, _LARGEST)
 
 
 def _policy(names: tuple[str, ...], value: Any, what: str) -> str:

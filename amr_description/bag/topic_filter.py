@@ -58,13 +58,15 @@ class TopicFilter:
 
     def wants(self, topic: str, type_name: str) -> bool:
         """Return whether a topic is recorded."""
+        return self.chooses(topic, type_name) and not self._hides(topic, type_name)
+
+    def chooses(self, topic: str, type_name: str) -> bool:
+        """Return whether a topic is recorded if it is not hidden, or hidden ones are, too."""
         if self._matches('exclude_regex', self._known_as(topic, type_name)):
             return False
         if is_service_event(topic, type_name):
             return self._wants_service(topic.removesuffix(EVENT_TOPIC))
         if topic in self.exclude_topics or type_name in self.exclude_topic_types:
-            return False
-        if is_hidden(topic) and not self.include_hidden_topics:
             return False
         return (
             self.all_topics
@@ -72,6 +74,10 @@ class TopicFilter:
             or type_name in self.topic_types
             or self._matches('regex', topic)
         )
+
+    def _hides(self, topic: str, type_name: str) -> bool:
+        is_event = is_service_event(topic, type_name)
+        return is_hidden(topic) and not (is_event or self.include_hidden_topics)
 
     def _wants_service(self, service: str) -> bool:
         if service in self.exclude_services:

@@ -94,6 +94,7 @@ class Recorder:
         self._retired: deque[tuple[str, Subscription]] = deque()
         self._drained: deque[Subscription] = deque()
         self._refused: set[str] = set()
+        self._has_hidden = False  # and said so
         self._clock = node.get_clock()
         self._last_time = 0
         self._is_ending = False
@@ -179,6 +180,12 @@ class Recorder:
 
     def _is_wanted(self, topic: str, types: list[str]) -> bool:
         if not any(self.options.topics.wants(topic, each) for each in types):
+            if not self._has_hidden:
+                self._has_hidden = any(self.options.topics.chooses(topic, each) for each in types)
+                if self._has_hidden:
+                    self.node.get_logger().warning(
+                        'Hidden topics are not recorded. Enable them with --include-hidden-topics'
+                    )
             return False
         if len(set(types)) > 1:
             self._refuse(

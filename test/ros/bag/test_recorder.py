@@ -242,6 +242,17 @@ def test_topics_without_subscription_may_be_left_out(tmp_path):
         assert {*host.recorder.topics} == {'/b'}
 
 
+def test_hidden_topics_are_named_once(tmp_path, capfd):
+    with hosted(tmp_path / 'bag', topics=TopicFilter(topics=['/_a', '/_b', '/c'])) as host:
+        for name in ('_a', '_b', 'c'):
+            host.node.create_publisher(String, name, 1)
+        host.subscribed('/c')
+        host.recorder.discover()
+        assert {*host.recorder.topics} == {'/c'}
+    warning = 'Hidden topics are not recorded. Enable them with --include-hidden-topics'
+    assert capfd.readouterr().err.count(warning) == 1
+
+
 def test_services_pause_resume_and_split(tmp_path):
     with hosted(tmp_path / 'bag', start_paused=True) as host:
         events = []

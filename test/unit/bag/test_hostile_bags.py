@@ -109,11 +109,13 @@ def test_a_path_that_is_too_long_is_missing(tmp_path):
     assert str(caught.value).isprintable()
 
 
-def test_a_depth_that_is_none_keeps_what_was_latched(tmp_path):
+@pytest.mark.parametrize('depth', [2**70, f'0x{"f" * 6000}'])
+def test_a_depth_that_is_none_keeps_what_was_latched(tmp_path, depth):
     bag = write_bag(tmp_path / 'bag', [topic('/a')], [(0, '/a', 'x'), (1, '/a', 'y')])
     text = (bag / 'metadata.yaml').read_text()
-    latched = text.replace('depth: 10', f'depth: {2**70}').replace('volatile', 'transient_local')
+    latched = text.replace('depth: 10', f'depth: {depth}').replace('volatile', 'transient_local')
     (bag / 'metadata.yaml').write_text(latched)
     with BagReader(bag) as reader:
         recording = BagRecording([reader])
         assert len(recording.latched_before(recording.end)) == 1
+        assert f'depth: {2**64 - 1}\n' in metadata.to_text(reader.metadata)
