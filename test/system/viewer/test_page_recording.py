@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bags and the page, in a real browser: one that is shown, one that is recorded, one played."""
 
+from bisect import bisect_right
 from contextlib import contextmanager
-from math import cos, dist, hypot, sin
+from math import atan2, cos, dist, hypot, sin
+from pathlib import Path
 import signal
 import time
 
+from ament_index_python.packages import get_package_prefix
 from fixtures.cli.commands import ros2, started
 import pytest
 from support.drive_bag import LENGTH, pose_at, RADIUS, write_drive
@@ -14,8 +17,10 @@ from support.page import Page
 from support.running_programs import PATIENCE, Program
 
 from amr_description.bag.reader import BagReader
+from amr_description.ros.cdr import read_odometry
 from amr_description.testing.program import own_domain
 
+BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 CENTRE = (0.0, RADIUS)
 """Of the circle that is driven, m."""
 PART = (2.0, 5.0)
@@ -136,20 +141,99 @@ def test_a_drive_that_is_trimmed_and_played_is_seen(browser, graph_viewer, drive
     part = tmp_path / 'part'
     options = ('--start-offset', str(begin), '--duration', str(length))
     assert ros2('bag', 'trim', str(drive), '-o', str(part), *options).returncode == 0
-    page = browser.open(graph_viewer, width=1280, height=760)
-    page.wait_until("amr.now.link === 'open'")
-    seen = []
-    with started('bag', 'play', str(part), '--disable-keyboard-controls') as player:
-        while player.process.poll() is None:
-            pose = shown(page)
-            if pose is not None and (not seen or pose != seen[-1]):
-                seen.append(pose)
-    assert is_at(page, begin + length)
-    page.close()
+    seen = played(browser, graph_viewer, part)
     turns = [each[2] for each in seen]
     assert len(seen) > 10
     assert turns == sorted(turns)
     assert turns[0] < pose_at(begin + 2.0)[2]
+    assert pose_at(begin + length - 1.0)[2] < turns[-1] < pose_at(begin + length)[2] + 1e-3
     for x, y, turn in seen:
         assert hypot(x - CENTRE[0], y - CENTRE[1]) == pytest.approx(RADIUS, abs=1e-3)
         assert (x, y) == pytest.approx((RADIUS * sin(turn), RADIUS * (1 - cos(turn))), abs=1e-3)
+
+
+def played(browser, url, bag):
+    """Play a bag beside the page; return where the page showed the robot, which then goes."""
+    page = browser.open(url, width=1280, height=760)
+    page.wait_until("amr.now.link === 'open'")
+    seen = []
+    with started('bag', 'play', str(bag), '--disable-keyboard-controls') as player:
+        while player.process.poll() is None:
+            pose = shown(page)
+            if pose is not None and (not seen or pose != seen[-1]):
+                seen.append(pose)
+    page.close()
+    return seen
+
+
+@pytest.mark.long
+def test_a_drive_in_the_simulator_is_what_the_page_shows_of_its_bag(browser, tmp_path):
+    """Recorded on the page, trimmed to 5 s, then played beside it, and scrubbed without ROS."""
+    with own_domain(), Program(BRINGUP, 'simulation', 'viewer:=false') as stack:
+        stack.expect('ready in')
+        with viewer(bag_folder=tmp_path) as url:
+            record_drive(browser, url)
+        assert stack.end(signal.SIGINT) == 0
+    (bag,) = tmp_path.iterdir()
+    part = tmp_path / 'part'
+    assert ros2('bag', 'trim', str(bag), '-o', str(part), '--duration', '5').returncode == 0
+    begin, times, truths = truths_of(part)
+    assert dist(truths[0][:2], truths[-1][:2]) > 0.5
+    with own_domain(), viewer() as url:
+        seen = played(browser, url, part)
+    indices = [nearest(pose, truths) for pose in seen]
+    assert len({*indices}) > 10
+    assert indices == sorted(indices)
+    assert indices[-1] > 0.8 * len(truths)
+    with viewer('--bag', part) as url:
+        page = browser.open(url, width=1280, height=760)
+        page.wait_until('amr.now.samples > 100')
+        for place in (4.5, 1.0, 3.25):
+            slide(page, place)
+            page.wait_until(f'Math.abs(amr.now.place - {place}) < 1e-3')
+            at = begin + round(place * 1e9)
+            truth = truths[bisect_right(times, at) - 1]
+            page.wait_until(
+                f'Math.hypot(amr.now.scene.pose.x - {truth[0]}, '
+                f'amr.now.scene.pose.y - {truth[1]}) < 1e-2'
+            )
+        page.close()
+
+
+def record_drive(browser, url):
+    page = browser.open(url, width=1280, height=760)
+    page.wait_until("amr.now.link === 'open' && amr.now.robot && amr.now.states > 5")
+    page.click('.recorder button')
+    page.wait_until('amr.now.writing')
+    begin = shown(page)
+    page.key_down('KeyW')
+    page.key_down('KeyA')
+    page.wait_until(
+        f'Math.hypot(amr.now.scene.pose.x - {begin[0]}, amr.now.scene.pose.y - {begin[1]}) > 1.0'
+    )
+    page.key_up('KeyA')
+    page.wait_until(f'amr.now.time > {page.evaluate("amr.now.time") + 3}')
+    page.key_up('KeyW')
+    page.click('.recorder button')
+    page.wait_until('amr.now.writing === null')
+    assert page.errors == []
+    page.close()
+
+
+def truths_of(bag):
+    """The begin of the bag, ns; when, ns, and where the robot truly was, m and rad."""
+    times, truths = [], []
+    with BagReader(bag) as reader:
+        for message in reader.messages(['/ground_truth/odom']):
+            x, y, *_, z, w = read_odometry(message.data)[:7]
+            times.append(message.log_time)
+            truths.append((x, y, 2 * atan2(z, w)))
+        return reader.metadata.starting_time, times, truths
+
+
+def nearest(pose, truths):
+    """The index of the truth that a pose is, the last of equal ones."""
+    distances = [dist(pose[:2], truth[:2]) for truth in truths]
+    least = min(distances)
+    assert least < 1e-3, pose
+    return max(index for index, each in enumerate(distances) if each < least + 1e-6)
