@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 import signal
 import sys
+from tempfile import TemporaryDirectory
 
 from ament_index_python.packages import get_package_prefix
 from support import chromium
@@ -110,6 +111,31 @@ def write_navigation(browser):
         (IMAGES / 'navigation.webp').write_bytes(page.picture('webp', quality=72))
 
 
+def write_recording(browser):
+    """Write the picture of a recorded drive, at a time of it, with all that was measured then."""
+    words = ('simulation', 'world:=warehouse', 'sensors:=true', 'rtf:=0.5')
+    with TemporaryDirectory() as folder:
+        bag = Path(folder, 'tour')
+        with page_of(browser, *words, f'record:={bag}', width=1280, height=800) as page:
+            drive(page, ('KeyW', 2.0), ('KeyA', 0.7), ('KeyW', 3.0), ('KeyD', 0.7), ('KeyW', 2.0))
+        with Program.module('viewer', '--bag', bag, '--ros-args', '-p', 'port:=0') as viewer:
+            url = viewer.expect(r'The page is at (http://\S+)')[1]
+            page = browser.open(url, pixels=1.0, every_frame=True, width=1280, height=800)
+            page.wait_until('amr.now.samples > 100')
+            page.click('#tab-sensors')
+            for topic in ('/camera/depth_image', '/camera/image/compressed', '/camera/points'):
+                page.click(f'[aria-label="Show {topic}"]')
+            for key in ('End', *['ArrowLeft'] * 3):
+                page.key_down(key, key)
+                page.key_up(key, key)
+            page.wait_until("amr.now.pictures['/camera/image/compressed'] > 1")
+            frames = page.evaluate('amr.now.scene.frames')
+            page.wait_until(f'amr.now.scene.frames > {frames} + 10')  # finely drawn again
+            (IMAGES / 'recording.webp').write_bytes(page.picture('webp', quality=60))
+            page.close()
+            viewer.end(signal.SIGINT)
+
+
 def drag(page, selector, right, down):
     """Drag from the middle of an element, pixels."""
     x, y = page.centre_of(selector)
@@ -126,6 +152,7 @@ def main():
         write_film(browser)
         write_sensors(browser)
         write_navigation(browser)
+        write_recording(browser)
         with page_of(browser, 'simulation', 'world:=warehouse') as page:
             drive(page, ('KeyW', 2.0), ('KeyA', 1.0), ('KeyW', 2.0), ('KeyD', 1.5), ('KeyW', 1.0))
             page.screenshot(IMAGES / 'simulation.png')

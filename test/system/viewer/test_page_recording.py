@@ -14,12 +14,15 @@ from fixtures.cli.commands import ros2, started
 import pytest
 from support.drive_bag import LENGTH, pose_at, RADIUS, write_drive
 from support.page import Page
+from support.paths import ROOT
 from support.running_programs import PATIENCE, Program
 
 from amr_description.bag.reader import BagReader
 from amr_description.ros.cdr import read_odometry
 from amr_description.testing.program import own_domain
 
+AUDIT = (ROOT / 'test' / 'support' / 'page_audit.js').read_text()
+DRAWN = 'new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))'
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
 CENTRE = (0.0, RADIUS)
 """Of the circle that is driven, m."""
@@ -86,6 +89,12 @@ def test_a_bag_is_scrubbed_forwards_and_backwards(browser, drive):
         press(page, 'Space', ' ')
         page.wait_until('amr.now.place > 0.5')
         assert not page.evaluate("document.querySelector('.stop').checkVisibility()")
+        page.evaluate(f'{AUDIT};0')
+        for width, height in ((1280, 760), (390, 780), (780, 390)):
+            page.look_like(width, height, phone=width < 1000)
+            page.evaluate(DRAWN)
+            faults = page.evaluate('auditPage.faults()')
+            assert [each for each in faults if 'STOP' not in each] == []
         assert page.errors == []
         page.close()
 

@@ -26,7 +26,7 @@ export function findingsToLookAt({ model }: Store): { count: number; tone: 'warn
 }
 
 function ModelPanel({ app }: PanelProps) {
-  const { model, robot, graph } = app.store;
+  const { model, robot, graph, recording } = app.store;
   const open = useSignal(false); // whichever robot: who reads one URDF wants to read the other
   const shown = useSignal<Shown | null>(null);
   if (robot === null || model === null) {
@@ -40,8 +40,8 @@ function ModelPanel({ app }: PanelProps) {
       <Section title="Findings of check_urdf">
         <Findings list={model.findings} show={(line) => (shown.value = { line })} />
       </Section>
-      <Section title="In the ROS graph">
-        <Facts pairs={namesInGraph(robot)} />
+      <Section title={recording === null ? 'In the ROS graph' : 'In the recording'}>
+        <Facts pairs={recording === null ? namesInGraph(robot) : namesInBag(robot)} />
       </Section>
       <Section title="URDF">
         <Source model={model} name={robot.name} open={open} shown={shown} />
@@ -55,6 +55,13 @@ function Hint({ text }: { text: string }) {
   const place = useRef<HTMLParagraphElement>(null);
   useLayoutEffect(() => place.current?.replaceChildren(...commands(text)), [text]);
   return <p ref={place} class="empty" />;
+}
+
+/** Who subscribes, and which nodes there were, a bag does not say. */
+function namesInBag(robot: RobotInfo): [string, string][] {
+  const { odometry, truth, joint_states: joints, wheels } = robot;
+  const pairs = [['Odometry', odometry], ['Truth', truth], ['Joint states', joints], ['Wheels', wheels]] as const;
+  return pairs.map(([name, topic]) => [name, topic ?? 'not recorded']);
 }
 
 function namesInGraph(robot: RobotInfo): [string, string][] {

@@ -80,13 +80,15 @@ function RecordThese({ app, topics }: Pick<TopicProps, 'app'> & { topics: readon
   const { recording, writing } = app.store;
   const isOffered = recording === null && writing !== null && topics.length > 0;
   return isOffered ? (
-    <Button
-      icon="record"
-      kind="quiet"
-      title={`Record these ${topics.length} topics into a bag`}
-      disabled={writing.active}
-      onClick={() => startRecording(app, topics.map(({ name }) => name))}
-    />
+    <span class="recorder">
+      <Button
+        icon="record"
+        kind="quiet"
+        title={`Record these ${topics.length} topics into a bag`}
+        disabled={writing.active}
+        onClick={() => startRecording(app, topics.map(({ name }) => name))}
+      />
+    </span>
   ) : null;
 }
 
