@@ -32,6 +32,10 @@ URDF = """<robot name="circler">
   <joint name="lidar_joint" type="fixed">
     <parent link="base_link"/><child link="lidar"/><origin xyz="0 0 0.2"/>
   </joint>
+  <link name="camera"/>
+  <joint name="camera_joint" type="fixed">
+    <parent link="base_link"/><child link="camera"/><origin xyz="0.2 0 0.1"/>
+  </joint>
   <joint name="wheel_joint" type="continuous">
     <parent link="base_link"/><child link="wheel"/><axis xyz="0 1 0"/>
   </joint>

@@ -33,7 +33,7 @@ function numbers(values: readonly number[]): string {
 
 /** Answer the last request of a type; wait until the page has taken it in. */
 async function answer(app: TestApp, type: string, known: Partial<Reply>): Promise<void> {
-  const asked = [...app.sent].reverse().find((each) => each.type === type);
+  const asked = app.sent[app.sent.map((each): string => each.type).lastIndexOf(type)];
   assert.ok(asked !== undefined && 'id' in asked, `${type} was not asked`);
   app.say({ type: 'reply', id: asked.id, ok: true, message: '', data: null, ...known });
   await new Promise((resolve) => setTimeout(resolve));

@@ -7,7 +7,7 @@ Where everything was at a time is then found by bisection, forwards and backward
 scans and all other topics stay in the files: of them the times of the messages are known.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 import math
 
 from rclpy.serialization import deserialize_message
@@ -93,6 +93,19 @@ class RecordedFrames:
         self._topics[name] = topic
         if before and len(self._parents[name]) > before:
             self._changes.add(time)
+
+    def complete(self, time: int, namespace: str, fixed: Iterable[FramePose]) -> None:
+        """
+        Add links of a robot that no transform of the bag is of, where its description has them.
+
+        A simulator that records itself hears no robot_state_publisher.
+        """
+        prefix = f'{namespace.strip("/")}/'
+        if not any(name.startswith(prefix) for name in self._poses):
+            prefix = ''
+        for each in fixed:
+            if _prefixed(prefix, each.name) not in self._poses:
+                self._add(time, prefix, each, f'{namespace.rstrip("/")}/tf_static')
 
     def version(self, time: int) -> int:
         """Return which of its trees it was at a time: they differ in who is whose parent."""
@@ -269,6 +282,9 @@ class Recorded:
                 except (ValueError, UnicodeDecodeError):
                     self.broken += 1
         self.begin, self.end = first or 0, last or 0
+        for robot in self.robots:
+            if robot.described is not None:
+                self.frames.complete(self.begin, robot.found.id, robot.described.fixed)
         del self.log[:-_MOST_LINES]
 
     def _takes(self) -> Mapping[str, Take]:

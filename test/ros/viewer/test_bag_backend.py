@@ -105,6 +105,8 @@ def test_everything_is_where_it_was_forwards_and_backwards(backend, seconds):
         assert base[:2] == pytest.approx((x, y), abs=1e-5)
         assert base[5] == pytest.approx(np.sin(turn / 2), abs=1e-6)
         assert frame.poses[names.index('lidar')][2] == pytest.approx(0.2)
+        camera = frame.poses[names.index('camera')]  # of the description: it has no transform
+        assert camera[:3] == pytest.approx((0.2, 0.0, 0.1))
         assert robot.odometry[[0, 1, 7]] == pytest.approx((x, y, SPEED), abs=1e-5)
         assert robot.truth[:2] == pytest.approx((x, y), abs=1e-5)
         assert robot.positions[0] == pytest.approx(each * 10)
