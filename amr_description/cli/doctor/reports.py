@@ -13,8 +13,9 @@ type Items = list[tuple[str, object]]
 
 _VERSION = re.compile(r'<version[^>]*>\s*([^<\s]+)\s*</version>')
 _NARROWEST = 8
-_OF_FAMILIES = {
+_OF_FAMILIES: dict[str, set[str]] = {
     'NETWORK CONFIGURATION': {'machine', 'environment'},
+    'PACKAGE VERSIONS': set(),
     'PLATFORM INFORMATION': {'machine'},
     'PROCESSES': {'processes'},
     'QOS COMPATIBILITY LIST': {'qos'},
@@ -46,7 +47,7 @@ def print_reports(
 
 
 def _is_wanted(name: str, families: Collection[str]) -> bool:
-    known = set().union(*_OF_FAMILIES.values())
+    known = {each for named in _OF_FAMILIES.values() for each in named}
     return not _OF_FAMILIES.get(name, {*families} - known).isdisjoint(families)
 
 

@@ -10,6 +10,8 @@ from fixtures.cli.commands import ros2, started
 from support.doc_pages import Page
 from support.page_lines import typed
 
+from amr_description.cli.doctor import examination
+from amr_description.cli.main import main
 from amr_description.doctor.table import RULES
 
 PAGE = Page('doctor.md')
@@ -31,6 +33,16 @@ def test_a_middleware_that_is_missing_ends_no_doctor():
     assert 'see: docs/doctor.md#rmw_implementation\n' in result.stdout
     assert '\n   RMW MIDDLEWARE\nmiddleware name    : rmw_connextdds\n' in result.stdout
     assert 'PACKAGE VERSIONS' not in result.stdout
+
+
+def test_an_rclpy_that_cannot_be_imported_is_named_first(monkeypatch, capsys):
+    fault = 'libfastrtps.so.2.14: cannot open shared object file'
+    monkeypatch.setattr(examination, '_rclpy_fault', lambda: fault)
+    assert main('ros2', ['doctor']) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[4].split(maxsplit=1)[1] == f'not observed: rclpy cannot be imported: {fault}'
+    assert lines[6].startswith('ERROR: rclpy cannot be imported by ')
+    assert 'Failed modules: machine' in lines
 
 
 def test_warnings_fail_only_where_they_are_included():
