@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A simulated robot, nodes that make faults, and the doctor, who looks until it sees them."""
 
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 import re
 import shlex
 import signal
@@ -11,6 +11,7 @@ from fixtures.cli.commands import ros2
 from rcl_interfaces.srv import SetParameters
 import rclpy
 from rclpy.clock import Clock, ClockType
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -122,7 +123,12 @@ class Bench:
 
 def every(node, period, publisher, make):
     """Publish what is made, every ``period`` s of the machine."""
-    return node.create_timer(period, lambda: publisher.publish(make()), clock=_STEADY)
+
+    def publish():
+        with suppress(InvalidHandle):  # the test has ended the node meanwhile
+            publisher.publish(make())
+
+    return node.create_timer(period, publish, clock=_STEADY)
 
 
 def command_in(fix):

@@ -78,8 +78,7 @@ class CommandProbe:
         if any(each.value is None for each in self._locks) and waited < _LOCK_PATIENCE:
             return False
         return waited >= LISTEN or all(
-            not each.publishers or (len(each.seen) >= ENOUGH and waited >= SHORTEST)
-            for each in self._topics
+            not each.publishers or (each.is_heard and waited >= SHORTEST) for each in self._topics
         )
 
     def observe(self) -> Commands:
@@ -206,6 +205,12 @@ class _Topic:
     heard: HeardTopic | None = None
     seen: list[tuple[Any, int, bytes]] = field(default_factory=list)
     """Messages, when they were received, and the gids of their publishers."""
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether enough has come, and of every publisher: one may be connected later."""
+        publishers = {gid for _, _, gid in self.seen}
+        return len(self.seen) >= ENOUGH and len(publishers) >= len(self.publishers)
 
 
 @dataclass(slots=True)

@@ -47,7 +47,7 @@ def robot():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(clock_probe, 'LISTEN', 0.3)
         patch.setattr(clock_probe, 'SURE', 0.6)
-        patch.setattr(command_probe, 'LISTEN', 1.0)
+        patch.setattr(command_probe, 'LISTEN', 1.5)
         patch.setattr(command_probe, 'SHORTEST', 0.3)
         with robot_bench() as made:
             yield made
@@ -128,7 +128,16 @@ INCOMPATIBLE = {
 }
 
 
-@pytest.mark.parametrize('policy', INCOMPATIBLE)
+SHORT = ('reliability', 'durability')
+
+
+@pytest.mark.parametrize(
+    'policy',
+    [
+        each if each in SHORT else pytest.param(each, marks=pytest.mark.long)
+        for each in INCOMPATIBLE
+    ],
+)
 def test_qos_that_does_not_match(robot, policy):
     offered, requested = (QoSProfile(depth=1, **each) for each in INCOMPATIBLE[policy])
     with robot.intruder('driver') as driver, robot.intruder('mapper') as mapper:
@@ -142,7 +151,7 @@ def test_qos_that_does_not_match(robot, policy):
         robot.healed(GRAPH)
 
 
-@pytest.mark.parametrize('kind', [TwistStamped, Twist])
+@pytest.mark.parametrize('kind', [pytest.param(TwistStamped, marks=pytest.mark.long), Twist])
 def test_commands_beside_the_controller(robot, kind):
     with robot.stranger('navigator') as node:
         node.create_publisher(kind, '/cmd_vel', 10)
