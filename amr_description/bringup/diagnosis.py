@@ -20,7 +20,7 @@ from amr_description.entry import python_command
 COMMAND = python_command(
     'from amr_description.entry import nodes; sys.exit(nodes.start_failure.main())'
 )
-TIMEOUT = 10.0
+TIMEOUT = 20.0
 """s after which a failure is reported without it, as on a machine that is too busy."""
 _MARK = 'doctor: '
 _LOGGED_REASON = re.compile(r'\[(?:ERROR|FATAL)\] \[[\d.]+\] \[(?!rcl|rmw)')
