@@ -7,8 +7,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from amr_description.bag import qos_text, yaml_text
 from amr_description.bag.storage import TopicMetadata
 from amr_description.bag.yaml_text import shown, word
@@ -116,7 +114,7 @@ def _topic_node(topic: TopicMetadata) -> dict[str, Any]:
 def to_text(metadata: BagMetadata, *, with_root: bool = True) -> str:
     """Return the YAML; without its root it is what a record in an MCAP file has."""
     node = to_node(metadata)
-    return yaml.safe_dump({_ROOT: node} if with_root else node, sort_keys=False)
+    return yaml_text.dump({_ROOT: node} if with_root else node)
 
 
 def from_text(text: str, what: str = FILE_NAME) -> BagMetadata:

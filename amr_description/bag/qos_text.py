@@ -10,8 +10,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-import yaml
-
 from amr_description.bag import yaml_text
 from amr_description.bag.yaml_text import shown
 from amr_description.errors import BagError
@@ -72,7 +70,7 @@ def to_node(profile: QosProfile, *, named: bool = True) -> dict[str, Any]:
 def to_text(profiles: Iterable[QosProfile], *, named: bool = True) -> str:
     """Return the YAML of a list of profiles; of none the empty text."""
     nodes = [to_node(profile, named=named) for profile in profiles]
-    return yaml.safe_dump(nodes, sort_keys=False).rstrip('\n') if nodes else ''
+    return yaml_text.dump(nodes).rstrip('\n') if nodes else ''
 
 
 def from_node(node: Any, what: str = 'QoS profile') -> QosProfile:

@@ -11,6 +11,7 @@ from amr_description.parameter_files import load_yaml
 from amr_description.text import shorten
 
 _LOADER: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
+_DUMPER: Any = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)
 _DEEPEST = 1000
 _MOST_SHOWN = 8  # of a list or mapping
 
@@ -21,6 +22,11 @@ def load(text: str, what: str) -> Any:
         return load_yaml(text, _load)
     except ParameterError as error:
         raise BagError(f'{what}: not YAML: {shorten(str(error))}') from error
+
+
+def dump(value: Any) -> str:
+    """Return the YAML of a value, its keys in their order."""
+    return str(yaml.dump(value, Dumper=_DUMPER, sort_keys=False))
 
 
 def shown(value: Any) -> str:
