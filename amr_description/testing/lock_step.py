@@ -282,6 +282,8 @@ class LockStep:
 
     def _on_acknowledgement(self, message: KeyValue) -> None:
         number = int(message.value)
+        if number > self._published.get(message.key, 0):
+            return  # of another publisher: a later one of ours is not to count as acknowledged
         self._acknowledged[message.key] = max(number, self._acknowledged.get(message.key, 0))
 
     def _call(self, service_type: Any, name: str, request: Any) -> Any:

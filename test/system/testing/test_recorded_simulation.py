@@ -60,12 +60,11 @@ def in_real_time(sim, bag):
     sim.record(bag)
     heard = []
     subscription = sim.node.create_subscription(Odometry, '/odom', heard.append, 10)
-    publisher = sim.node.create_publisher(TwistStamped, '/diff_drive_controller/cmd_vel', 10)
     command = TwistStamped()
     command.twist.linear.x, command.twist.angular.z = 0.5, 0.7
 
     def has_driven():
-        publisher.publish(command)
+        sim.send('/diff_drive_controller/cmd_vel', command)
         return heard and heard[-1].pose.pose.position.x > 0.1
 
     sim._running.set_parameter('real_time_factor', 3.0)  # so that a thread writes
@@ -75,7 +74,6 @@ def in_real_time(sim, bag):
     sim.ask(SetSimulationState, state=state(state=state.STATE_PAUSED))
     sim.end_recording()
     sim.node.destroy_subscription(subscription)
-    sim.node.destroy_publisher(publisher)
 
 
 def test_equal_runs_have_equal_files_however_they_are_stepped(bags):
