@@ -15,7 +15,7 @@ from amr_description import colors
 from amr_description.cli.doctor.reports import print_reports
 from amr_description.doctor import report
 from amr_description.doctor.findings import Finding, Severity
-from amr_description.doctor.host import read_host
+from amr_description.doctor.host import read_host, Sections
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.table import examine, family, RULES
 from amr_description.errors import AmrError
@@ -117,7 +117,8 @@ def _print_finding(finding: Finding) -> None:
 @contextmanager
 def observer() -> Iterator[Callable[[], Examination]]:
     """Yield what observes host and graph; where ROS cannot be used, the host alone."""
-    fault = _obstacle()
+    sections = read_host()
+    fault = _obstacle(sections)
     if fault:
         yield lambda: _of_host(unseen=fault)
         return
@@ -135,16 +136,18 @@ def observer() -> Iterator[Callable[[], Examination]]:
             yield lambda: _of_host(unseen=fault)
             return
 
+        newest: list[Sections] = [sections]
+
         def examined() -> Examination:
-            seen = observe(session, **read_host())
+            seen = observe(session, **(newest.pop() if newest else read_host()))
             return Examination(seen, examine(seen))
 
         yield examined
 
 
-def _obstacle() -> str:
+def _obstacle(sections: Sections) -> str:
     """Return by what rclpy would end this process, or fail, as soon as it is used."""
-    seen = Observations(**read_host())
+    seen = Observations(**sections)
     return next((each.what for each in examine(seen) if each.rule in _OBSTACLES), '')
 
 

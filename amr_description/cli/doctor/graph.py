@@ -12,7 +12,6 @@ from amr_description.cli.discovery import wait_for_discovery
 from amr_description.cli.session import open_session, Session
 from amr_description.doctor.host import Sections
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.ros.collector import collect, PROBES, WINDOW
 from amr_description.doctor.rules.machine import overloaded
 from amr_description.errors import AmrError
 from amr_description.ros.rclpy_internals import RCLError
@@ -41,8 +40,11 @@ def observe(session: Session, **host: Unpack[Sections]) -> Observations:
     own = session.node.get_fully_qualified_name()
     others = [each for each in graph.nodes(session.node, hidden=True) if each.full_name != own]
     host['processes'] = replace(host['processes'], is_alone=not others)
-    # Who is alone need not wait for messages; on a busy machine they come late.
+    if not others:
+        return Observations(**host)
+    from amr_description.doctor.ros.collector import collect, WINDOW  # with many messages
+
+    # On a busy machine messages and answers come late.
     is_busy = any(overloaded(Observations(machine=host['machine'])))
     window = 2 * WINDOW if is_busy else WINDOW
-    probes = PROBES if others else {}
-    return collect(session.node, session.spin, window=window, probes=probes, **host)
+    return collect(session.node, session.spin, window=window, **host)
