@@ -5,7 +5,7 @@
 INSTEAD_OF_COMMANDS = {
     'ros2 component': 'components are C++ nodes, of which there are none here; start nodes with '
     '`ros2 run` and `ros2 launch`',
-    'ros2 multicast': 'see with `ros2 node list` on both machines whether they find each other '
+    'ros2 multicast': 'see with `ros2 doctor hello` on both machines whether they hear each other '
     '(docs/two_machines.md)',
     'ros2 plugin': 'plugins of C++ are not read here; those of the controller manager are listed '
     'by `ros2 control list_controller_types`',
