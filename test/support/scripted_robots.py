@@ -19,6 +19,8 @@ from amr_description.errors import ViewerError
 from amr_description.viewer.backend import Answer
 from amr_description.viewer.introspection import (
     Endpoint,
+    FindingInfo,
+    Findings,
     FrameStatus,
     Log,
     LogLine,
@@ -208,7 +210,12 @@ def simulation(*, wheels=True):
         layout=layout,
         states=states,
         ages=Ages(0.0, 0.0, (RobotAges('/', 0.0, 0.0, 0.0, 0.0),)),
-        latest={'topics': TOPICS, 'transforms': TRANSFORMS, 'log': LOG},
+        latest={
+            'topics': TOPICS,
+            'transforms': TRANSFORMS,
+            'log': LOG,
+            'findings': DOCTOR,
+        },
         answers={ListParameters: PARAMETERS},
     )
 
@@ -285,6 +292,18 @@ TRANSFORMS = Transforms(
         FrameStatus('laser', 'base_link', ('base_link', 'odom'), False, 10.0, 3.2, '/tf'),
     ),
     {'/tf': (DRIVE, '/robot_state_publisher'), '/tf_static': ('/robot_state_publisher',)},
+)
+DOCTOR = Findings(
+    (
+        FindingInfo(
+            'warning',
+            'controller_inactive',
+            "the controller 'imu' (imu_sensor_broadcaster/IMUSensorBroadcaster) of "
+            '/controller_manager is inactive',
+            'it is silent: it neither takes commands nor publishes',
+            'ros2 control set_controller_state imu active',
+        ),
+    )
 )
 LOG = Log(
     tuple(

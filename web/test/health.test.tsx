@@ -106,13 +106,14 @@ test('notices are listed, the latest first, equal ones counted, until they are c
 test('findings have what was seen, why it matters, and a fix to copy; none are healthy', async () => {
   const app = connected();
   const panel = healthPanel(app);
+  Object.defineProperty(globalThis, 'navigator', { value: {}, configurable: true }); // no clipboard
   const [rule, what, why] = ['two_clocks', '/clock has two publishers', 'time jumps'];
   app.say({ type: 'findings', items: [{ severity: 'error', rule, what, why, fix: 'ros2 node list' }] });
   await drawn();
-  assert.deepEqual(texts(panel, '.findings .unit-name'), [what]);
-  assert.deepEqual(texts(panel, '.findings .fine'), [why]);
-  assert.deepEqual(texts(panel, '.findings code'), ['ros2 node list']);
-  assert.equal(find(panel, '.findings .chip').dataset.tone, 'error');
+  assert.deepEqual(texts(panel, '.doctor .unit-name'), [what]);
+  assert.deepEqual(texts(panel, '.doctor .fine'), [why]);
+  assert.deepEqual(texts(panel, '.doctor code'), ['ros2 node list']);
+  assert.equal(find(panel, '.doctor .chip').dataset.tone, 'error');
   app.say({ type: 'findings', items: [] });
   await drawn();
   assert.match(texts(panel, '.empty')[0]!, /^Nothing is wrong/);

@@ -59,7 +59,7 @@ function Findings({ store }: { store: Store }) {
     return <p class="empty">Nothing is wrong with nodes, topics, time, frames, controllers and sensors.</p>;
   }
   return (
-    <ul class="rows findings">
+    <ul class="rows doctor">
       {findings.items.map((finding) => (
         <FindingRow key={`${finding.rule} ${finding.what}`} {...finding} />
       ))}
