@@ -36,6 +36,8 @@ class Tree:
     namespace: str = ''
     """Of ``/tf`` empty, of ``/r1/tf`` ``/r1``."""
     edges: tuple[Edge, ...] = ()
+    is_complete: bool = True
+    """Whether static transforms have come from all who publish some."""
 
     @property
     def topic(self) -> str:

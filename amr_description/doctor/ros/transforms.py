@@ -81,11 +81,20 @@ class TransformsProbe:
             )
         return Transforms(
             trees=tuple(
-                Tree(namespace=namespace, edges=tuple(edges))
+                Tree(
+                    namespace=namespace,
+                    edges=tuple(edges),
+                    is_complete=self._has_all_static(namespace),
+                )
                 for namespace, edges in sorted(trees.items())
             ),
             is_simulated=self._time.is_simulated,
         )
+
+    def _has_all_static(self, namespace: str) -> bool:
+        heard = self._heard.get((namespace, True))
+        said = {key[4] for key in self._seen if key[0] == namespace and key[3]}
+        return heard is not None and heard.publishers().keys() <= said
 
     def _take(self) -> None:
         for (namespace, is_static), heard in self._heard.items():

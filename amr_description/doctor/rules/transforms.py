@@ -153,7 +153,7 @@ def tf_islands(seen: Observations) -> Iterator[Finding]:
     """The frames of one robot are one tree."""
     for tree in _trees(seen):
         islands = _components(tree)
-        if len(islands) < 2 or _has_several_robots(seen):
+        if len(islands) < 2 or _has_several_robots(seen) or not tree.is_complete:
             continue
         roots = sorted(islands, key=lambda root: -len(islands[root]))
         main, *others = roots

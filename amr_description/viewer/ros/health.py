@@ -21,8 +21,10 @@ from amr_description.doctor.ros.sensors import SensorsProbe
 from amr_description.doctor.table import examine
 from amr_description.viewer.introspection import FindingInfo, Findings
 
-_PERIOD = 15.0
-"""s from one examination to the next: each takes 0.1 s of a processor."""
+_PERIOD = 25.0
+"""s from one examination to the next: each takes 0.2 s of a processor."""
+_DISCOVERY = 1.0
+"""s from a page's first look to the examination: until then what there is has been discovered."""
 _NODE = '_viewer_doctor'
 _PROBES = {name: probe for name, probe in PROBES.items() if name != 'navigation'} | {
     'sensors': partial(SensorsProbe, only_heard=True)
@@ -48,7 +50,7 @@ class Health:
         if is_watched == self._is_watched:
             return
         self._is_watched = is_watched
-        self._began = -_PERIOD
+        self._began = time.monotonic() + _DISCOVERY - _PERIOD
         if not is_watched:
             self._end()
             self.latest = None

@@ -28,7 +28,7 @@ from support.doctor_robots import (
 
 from amr_description.doctor.observations.controllers import Controller, Controllers
 from amr_description.doctor.observations.description import Description, DescriptionTopic
-from amr_description.doctor.observations.transforms import Edge
+from amr_description.doctor.observations.transforms import Edge, Transforms, Tree
 from amr_description.doctor.table import examine
 from amr_description.navigation.contract.observations import Observations as Navigation, Topic
 
@@ -125,6 +125,11 @@ HEALTHY = {
     ),
     'AMCL, which stamps into the future': with_edges(
         edge('map', 'odom', youngest=-(10**9), oldest=-(10**9))
+    ),
+    'static transforms that have not come yet': robots.robot(
+        transforms=Transforms(
+            trees=(Tree(edges=robots.EDGES[:1] + robots.EDGES[2:], is_complete=False),)
+        )
     ),
     'frames that nobody knows the age of': with_edges(edge('map', 'odom')),
     'two ways to command the wheels, one of which nobody has tried': with_manager(
