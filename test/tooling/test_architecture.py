@@ -179,7 +179,7 @@ def imported(
         id(node.body[0].value)
         for node in nodes
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
-        and ast.get_docstring(node) is not None
+        and ast.get_docstring(node, clean=False) is not None
     }
     prose = {id(node.value) for node in nodes if isinstance(node, ast.Expr)} | docstrings
     package = module.split('.') if is_package else module.split('.')[:-1]
