@@ -135,6 +135,6 @@ def _action_text(package: str, name: str) -> str | None:
 
 def _file_text(package: str, below: str) -> str | None:
     try:
-        return (package_share(package) / below).read_text()
+        return (package_share(package) / below).read_text(encoding='utf-8')
     except (OSError, ResourceError, UnicodeDecodeError):
         return None

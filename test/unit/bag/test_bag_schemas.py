@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The text of a type with all that it contains."""
 
+from pathlib import PosixPath
+
 import pytest
 
+from amr_description.bag import schemas
 from amr_description.bag.schemas import compose, contained_types, schema_text
 
 BETWEEN = '=' * 80 + '\nMSG: '
@@ -29,6 +32,20 @@ def test_installed_type():
     assert 'std_msgs/Header' in {part.partition('\n')[0] for part in parts}
     assert 'geometry_msgs/Vector3' in {part.partition('\n')[0] for part in parts}
     assert schema_text('nowhere/msg/Nothing') == ''
+
+
+class InLocaleC(PosixPath):
+    """As files are read where the locale is C: as ASCII, unless it is said otherwise."""
+
+    def read_text(self, encoding='ascii'):
+        return super().read_text(encoding)
+
+
+def test_types_are_read_in_any_locale(tmp_path, monkeypatch):
+    (tmp_path / 'msg').mkdir()
+    (tmp_path / 'msg' / 'Angle.msg').write_text('float64 angle  # in °\n', encoding='utf-8')
+    monkeypatch.setattr(schemas, 'package_share', lambda _: InLocaleC(tmp_path))
+    assert schema_text('measures/msg/Angle') == 'float64 angle  # in °\n'
 
 
 @pytest.mark.parametrize(
