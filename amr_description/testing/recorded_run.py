@@ -168,8 +168,10 @@ def _run_of(file: Path, types: Mapping[str, str], messages: Sequence[BagMessage]
                 f'{file}: at {each.log_time / NANOSECONDS:g} s robots were spawned or controllers '
                 f'switched, which is not repeated; {_HINT}'
             )
-    texts = [each.data for each in messages if each.topic == run_description.TOPIC]
-    description = run_description.from_text(deserialize_message(texts[-1], String).data)
+    texts = [each for each in messages if each.topic == run_description.TOPIC]
+    if not texts:
+        raise BagError(f'{file}: no message of {run_description.TOPIC} is in it')
+    description = run_description.from_text(_decoded(texts[-1], String, file).data)
     if not description.robots:
         raise BagError(f'{file}: there is no robot in it')
     left_out = {topic for topic, kind in types.items() if kind in _NOT_OF_THE_DRIVE}
@@ -180,21 +182,34 @@ def _run_of(file: Path, types: Mapping[str, str], messages: Sequence[BagMessage]
             told.setdefault(each.topic, []).append((each.log_time, each.data))
     return RecordedRun(
         description,
-        _active(types, messages),
-        _instants(description, types, clock, messages),
+        _active(file, types, messages),
+        _instants(description, types, clock, messages, file),
         told,
     )
 
 
-def _active(types: Mapping[str, str], messages: Sequence[BagMessage]) -> tuple[str, ...]:
+def _decoded(message: BagMessage, kind: type, file: Path) -> Any:
+    """Return what a message says. Raises BagError: it is not what its type says."""
+    try:
+        return deserialize_message(message.data, kind)
+    except (RuntimeError, ValueError) as error:
+        raise BagError(
+            f'{file}: the message of {message.topic} at {message.log_time / NANOSECONDS:g} s is '
+            'broken'
+        ) from error
+
+
+def _active(
+    file: Path, types: Mapping[str, str], messages: Sequence[BagMessage]
+) -> tuple[str, ...]:
     """Return the names of active controllers."""
-    last = {each.topic: each.data for each in messages if types[each.topic] == _ACTIVITY}
+    last = {each.topic: each for each in messages if types[each.topic] == _ACTIVITY}
     names: dict[str, None] = {}
-    for data in last.values():
-        activity = deserialize_message(data, message_type(_ACTIVITY))
-        for each in activity.controllers:
-            if each.state.label == 'active':
-                names[each.name] = None
+    for each in last.values():
+        activity = _decoded(each, message_type(_ACTIVITY), file)
+        for controller in activity.controllers:
+            if controller.state.label == 'active':
+                names[controller.name] = None
     return tuple(names)
 
 
@@ -203,11 +218,12 @@ def _instants(
     types: Mapping[str, str],
     clock: Sequence[int],
     messages: Sequence[BagMessage],
+    file: Path,
 ) -> tuple[Instant, ...]:
     commands: dict[int, list[tuple[str, Any]]] = {}
     for each in messages:
         if each.topic in description.commands:
-            message = deserialize_message(each.data, message_type(types[each.topic]))
+            message = _decoded(each, message_type(types[each.topic]), file)
             commands.setdefault(each.log_time, []).append((each.topic, message))
     # Where a step has ended between two cycles there was one more.
     usual = Counter(b - a for a, b in pairwise(clock)).most_common(1)

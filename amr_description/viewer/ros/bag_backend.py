@@ -9,9 +9,6 @@ from pathlib import Path
 import time
 from typing import NoReturn
 
-from rclpy.serialization import deserialize_message
-from visualization_msgs.msg import MarkerArray
-
 from amr_description.bag.playback_clock import PlaybackClock
 from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import TopicMetadata
@@ -46,7 +43,6 @@ from amr_description.viewer.protocol import (
 )
 from amr_description.viewer.requests import Definition, Part, Request
 from amr_description.viewer.ros.bag_samples import BagSamples, read_series
-from amr_description.viewer.ros.markers import shapes_of
 from amr_description.viewer.ros.publications import fields_of_type
 from amr_description.viewer.ros.recorded import Recorded, RecordedRobot
 from amr_description.viewer.samples import Sample
@@ -94,7 +90,7 @@ class BagBackend:
         self._head_due = self._state_due = self._tree_due = 0.0
         self._shown: int | None = None
         """The time of the last state, ns."""
-        self._worlds: dict[str, bytes] = {}
+        self._worlds: dict[str, World] = {}
         """What was published last of those."""
         self._overview: asyncio.Task[OverviewData] | None = None
 
@@ -267,11 +263,10 @@ class BagBackend:
 
     def _show_worlds(self, at: int) -> None:
         for simulator, each in self.recorded.worlds.items():
-            data = each.at(at)
-            if data is not None and self._worlds.get(simulator) is not data:
-                self._worlds[simulator] = data
-                shapes = shapes_of(deserialize_message(data, MarkerArray))
-                self.server.publish_now(simulator, World(simulator, shapes))
+            world = each.at(at)
+            if world is not None and self._worlds.get(simulator) is not world:
+                self._worlds[simulator] = world
+                self.server.publish_now(simulator, world)
 
     def _topics(self) -> Topics:
         recorded = self.recorded

@@ -7,11 +7,13 @@ Where everything was at a time is then found by bisection, forwards and backward
 scans and all other topics stay in the files: of them the times of the messages are known.
 """
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 import math
 
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
 
 from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import TopicMetadata
@@ -37,10 +39,11 @@ from amr_description.viewer.graph import (
     TWISTS,
 )
 from amr_description.viewer.introspection import LogLine
-from amr_description.viewer.protocol import FrameInfo, RobotLayout
+from amr_description.viewer.protocol import FrameInfo, RobotLayout, World
 from amr_description.viewer.ros.command_topic import DEFAULT_TIMEOUT
 from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.log_lines import read_line
+from amr_description.viewer.ros.markers import shapes_of
 from amr_description.viewer.ros.robot_topics import WHEEL_VALUES
 from amr_description.viewer.states import (
     COMMAND_FLOATS,
@@ -259,8 +262,8 @@ class Recorded:
         commands = self._commands()
         self.frames = RecordedFrames()
         self.robots = [RecordedRobot(each, commands.get(each.id)) for each in self.graph.robots]
-        self.worlds: dict[str, Changes[bytes]] = {}
-        self.log: list[LogLine] = []
+        self.worlds: dict[str, Changes[World]] = {}
+        self.log: deque[LogLine] = deque(maxlen=_MOST_LINES)
         self.broken = 0
         """Messages that are not what their type says."""
         self._clock = Changes[int]()
@@ -279,13 +282,12 @@ class Recorded:
             if take is not None:
                 try:
                     take(received, data)
-                except (ValueError, UnicodeDecodeError):
+                except (ValueError, RuntimeError):  # the latter of deserialize_message
                     self.broken += 1
         self.begin, self.end = first or 0, last or 0
         for robot in self.robots:
             if robot.described is not None:
                 self.frames.complete(self.begin, robot.found.id, robot.described.fixed)
-        del self.log[:-_MOST_LINES]
 
     def _takes(self) -> Mapping[str, Take]:
         takes: dict[str, Take] = {}
@@ -295,13 +297,29 @@ class Recorded:
             elif topic.type == _CLOCK and name == '/clock':
                 takes[name] = lambda time, data: self._clock.add(time, read_clock(data))
             elif topic.type == _LOG and name == '/rosout':
-                takes[name] = lambda _, data: self.log.append(read_line(data, len(self.log) + 1))
+                takes[name] = self._add_line
             elif topic.type == MARKERS and name.endswith('/world'):
-                world = self.worlds[name.rpartition('/')[0]] = Changes[bytes]()
-                takes[name] = world.add
+                takes[name] = self._world_taker(name.rpartition('/')[0])
         for robot in self.robots:
             takes |= robot.takes()
         return takes
+
+    def _add_line(self, _: int, data: bytes) -> None:
+        self.log.append(read_line(data, self.log[-1].number + 1 if self.log else 1))
+
+    def _world_taker(self, simulator: str) -> Take:
+        worlds = self.worlds[simulator] = Changes[World]()
+        last = b''
+
+        def take(time: int, data: bytes) -> None:
+            nonlocal last
+            if data != last:
+                worlds.add(
+                    time, World(simulator, shapes_of(deserialize_message(data, MarkerArray)))
+                )
+                last = data
+
+        return take
 
     def _commands(self) -> Mapping[str, TopicMetadata]:
         """Return the topic of velocity commands of each robot: by its name, else the shortest."""
@@ -326,7 +344,8 @@ class Recorded:
 
     def time(self, at: int) -> float:
         """Return the time of a state, s: that of the last /clock, else when it was received."""
-        return (self._clock.at(at) or at) / NANOSECONDS
+        clock = self._clock.at(at)  # 0 is a time: that of a simulation that has just begun
+        return (at if clock is None else clock) / NANOSECONDS
 
 
 def _preference(topic: TopicMetadata) -> tuple[bool, int, str]:

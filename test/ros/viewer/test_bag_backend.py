@@ -4,16 +4,27 @@
 
 import asyncio
 from base64 import b64decode
+from contextlib import contextmanager
 import json
 import struct
 
+from builtin_interfaces.msg import Time
+from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
+from rcl_interfaces.msg import Log
+from rclpy.serialization import serialize_message
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
 from support.drive_bag import LENGTH, pose_at, SPEED, URDF, write_drive
 from support.ros_processes import PATIENCE
-from support.small_bags import BEGIN, topic, write_bag
+from support.small_bags import BEGIN, MS, topic, write_bag
+from visualization_msgs.msg import Marker, MarkerArray
 
+from amr_description.bag.mcap_writer import BagWriter
+from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError, ViewerError
+from amr_description.ros.message_types import type_name
 from amr_description.viewer.backend import Watched
 from amr_description.viewer.bags import (
     Playback,
@@ -23,7 +34,7 @@ from amr_description.viewer.bags import (
     Recording,
     Seek,
 )
-from amr_description.viewer.protocol import Graph, Layout, Model
+from amr_description.viewer.protocol import Graph, Layout, Model, World
 from amr_description.viewer.requests import Definition, ResetSimulation
 from amr_description.viewer.ros.bag_backend import BagBackend
 from amr_description.viewer.states import StateFrame
@@ -213,6 +224,78 @@ def test_a_bag_without_a_robot_says_what_would_do(tmp_path):
     backend.open()
     backend.close_bag()
     assert 'no topic /robot_description' in backend.server.last(Graph).hint
+
+
+def write_messages(folder, *messages):
+    """Write a bag of (ms after the begin, topic, message, or its bytes and the type)."""
+    with BagWriter(folder) as writer:
+        known = set()
+        for ms, name, message in messages:
+            data, kind = message if isinstance(message, tuple) else (None, type(message))
+            if name not in known:
+                known.add(name)
+                writer.add_topic(TopicMetadata(name, type_name(kind)))
+            time = BEGIN + ms * MS
+            writer.write(BagMessage(name, data or serialize_message(message), time, time))
+    return folder
+
+
+@contextmanager
+def shown(bag):
+    """A backend with a first page."""
+    backend = BagBackend(bag, pytest.fail)
+    try:
+        backend.server = Told()
+        backend.open()
+        yield backend
+    finally:
+        backend.close_bag()
+
+
+def test_broken_messages_are_left_out_and_counted(tmp_path):
+    box = MarkerArray(markers=[Marker(ns='box', type=Marker.CUBE)])
+    box.markers[0].pose.orientation.w = 1.0
+    cut_off = {kind: serialize_message(each)[:12] for kind, each in (
+        (MarkerArray, box), (String, String(data=URDF)), (Odometry, Odometry())
+    )}  # fmt: skip
+    bag = write_messages(
+        tmp_path / 'broken',
+        (0, '/robot_description', String(data=URDF)),
+        (0, '/mujoco_sim/world', box),
+        *(
+            (after, name, (cut_off[kind], kind))
+            for after in (1, 2)
+            for name, kind in (
+                ('/robot_description', String),
+                ('/mujoco_sim/world', MarkerArray),
+                ('/odom', Odometry),
+            )
+        ),
+        (1000, '/mujoco_sim/world', MarkerArray()),
+    )
+    with shown(bag) as backend:
+        assert backend.recorded.broken == 6
+        for seconds, count in ((0.0, 1), (0.5, 1), (1.0, 0)):
+            ask(backend, Seek(1, seconds))
+            backend.take_state()
+            assert len(backend.server.last(World, '/mujoco_sim').shapes) == count
+        assert backend.server.last(Model, '/').urdf == URDF
+
+
+def test_time_0_of_a_simulation_is_a_time(tmp_path):
+    clocks = ((0, '/clock', Clock()), (10, '/clock', Clock(clock=Time(nanosec=10 * MS))))
+    with shown(write_messages(tmp_path / 'begun', *clocks)) as backend:
+        pages = Pages(backend)
+        assert [pages.at(each)[1] for each in (0.0, 0.01)] == [0.0, 0.01]
+
+
+def test_of_a_long_log_the_last_lines_are_kept(tmp_path):
+    lines = ((n, '/rosout', Log(msg=f'line {n}')) for n in range(2010))
+    with shown(write_messages(tmp_path / 'log', *lines)) as backend:
+        assert [each.text for each in backend.latest('log').lines] == [
+            f'line {n}' for n in range(10, 2010)
+        ]
+        assert backend.latest('log').lines[-1].number == 2010
 
 
 def test_what_is_no_bag_is_refused(tmp_path):

@@ -67,6 +67,22 @@ def test_what_cannot_be_run_again_is_refused_with_the_reason(tmp_path, part, why
         read_run(bag(tmp_path / 'bag', part))
 
 
+@pytest.mark.parametrize('name', [TOPIC, '/say', '/amr/controller_manager/activity'])
+def test_a_broken_message_is_refused_with_its_place(tmp_path, name):
+    types = dict.fromkeys((TOPIC, '/clock', '/say'), TYPE)
+    types['/amr/controller_manager/activity'] = (
+        'controller_manager_msgs/msg/ControllerManagerActivity'
+    )
+    with BagWriter(tmp_path / 'bag') as writer:
+        for each, kind in types.items():
+            writer.add_topic(TopicMetadata(each, kind))
+        for _, each, text in BEGIN:
+            writer.write(BagMessage(each, string(text), 0, 0))
+        writer.write(BagMessage(name, b'\0\1\0\0\xff\xff\0\0', 0, 0))
+    with pytest.raises(BagError, match=f'bag_0.mcap: the message of {name} at 0 s is broken'):
+        read_run(tmp_path / 'bag')
+
+
 def test_a_line_says_why_a_bag_is_not_run(tmp_path, capsys):
     with pytest.raises(SystemExit) as end:
         replay.main(['--help'])
