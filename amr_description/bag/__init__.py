@@ -8,6 +8,7 @@ nanoseconds.
 
 ====================== ============================================================================
 ``storage.py``         a topic and a message of a bag
+``folder_names.py``    the name of a bag that was given none
 ``qos_text.py``        QoS profiles as YAML, as it is in bags and in files of overrides
 ``metadata.py``        ``metadata.yaml``
 ``yaml_text.py``       YAML of bags, also what nobody can have meant

@@ -11,6 +11,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``transport.py``          have Fast DDS send by UDP, so that no killed process holds us up
 ``udp_sockets.py``        which UDP ports of this host are in use
 ``rclpy_internals.py``    the private members of rclpy that are used, and nothing else uses
+``rcl_structures.py``     structures of rcl, for those who call it by ctypes
 
 ``arguments.py``          ROS arguments of a command line; a robot description named there
 ``node_help.py``          ``--help`` of an executable that has no other options

@@ -21,6 +21,7 @@ from functools import cache
 from rclpy.node import Node
 
 from amr_description.ros.cdr import Reader
+from amr_description.ros.rcl_structures import Allocator, SerializedMessage
 
 TOPIC = 'ros_discovery_info'
 """The topic's name in DDS."""
@@ -58,7 +59,7 @@ class NodeLists:
 
     def newest(self) -> dict[bytes, NodeList]:
         """Return the newest list that has come from each participant, by the prefix of its gid."""
-        message = _Bytes(allocator=self._rmw.rcutils_get_default_allocator())
+        message = SerializedMessage(allocator=self._rmw.rcutils_get_default_allocator())
         taken = ctypes.c_bool()
         try:
             while True:
@@ -68,7 +69,7 @@ class NodeLists:
                 if code or not taken.value:
                     return self._newest
                 with suppress(ValueError):  # of another release of ROS, perhaps
-                    gid, found = read_node_list(ctypes.string_at(message.buffer, message.length))
+                    gid, found = read_node_list(message.copied())
                     self._newest[gid[:PREFIX]] = found
         finally:
             self._rmw.rcutils_uint8_array_fini(ctypes.byref(message))
@@ -147,29 +148,12 @@ class _Options(ctypes.Structure):
     )
 
 
-class _Allocator(ctypes.Structure):
-    """``rcutils_allocator_t``."""
-
-    _fields_ = (('functions', ctypes.c_void_p * 4), ('state', ctypes.c_void_p))
-
-
-class _Bytes(ctypes.Structure):
-    """``rmw_serialized_message_t``."""
-
-    _fields_ = (
-        ('buffer', ctypes.c_void_p),
-        ('length', ctypes.c_size_t),
-        ('capacity', ctypes.c_size_t),
-        ('allocator', _Allocator),
-    )
-
-
 @cache
 def _rmw() -> ctypes.CDLL | None:
     """Return what rclpy has loaded; None: it has not all that is needed."""
     results = {
         'rcl_node_get_rmw_handle': ctypes.c_void_p,
-        'rcutils_get_default_allocator': _Allocator,
+        'rcutils_get_default_allocator': Allocator,
         'rcutils_uint8_array_fini': ctypes.c_int,
         'rmw_create_subscription': ctypes.c_void_p,
         'rmw_destroy_subscription': ctypes.c_int,

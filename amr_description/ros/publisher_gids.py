@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 from rclpy.subscription import Subscription
 
+from amr_description.ros.rcl_structures import Allocator, SerializedMessage
+
 _GID = 16
 _LIBRARY = 'librcl.so'  # symbols are looked for in what it was linked to, too
 
@@ -41,7 +43,8 @@ def take_with_gid(subscription: Subscription) -> MessageOfPublisher | None:
         OSError: rcl is not there, or not that of Jazzy.
     """
     rcl = _rcl()
-    message, info = _Bytes(allocator=rcl.rcutils_get_default_allocator()), _MessageInfo()
+    message = SerializedMessage(allocator=rcl.rcutils_get_default_allocator())
+    info = _MessageInfo()
     try:
         handle = subscription.handle
         with handle:
@@ -50,27 +53,9 @@ def take_with_gid(subscription: Subscription) -> MessageOfPublisher | None:
             )
         if code:
             return None
-        data = ctypes.string_at(message.buffer, message.length)
-        return MessageOfPublisher(data, info.received, bytes(info.gid))
+        return MessageOfPublisher(message.copied(), info.received, bytes(info.gid))
     finally:
         rcl.rcutils_uint8_array_fini(ctypes.byref(message))
-
-
-class _Allocator(ctypes.Structure):
-    """``rcutils_allocator_t``."""
-
-    _fields_ = (('functions', ctypes.c_void_p * 4), ('state', ctypes.c_void_p))
-
-
-class _Bytes(ctypes.Structure):
-    """``rcl_serialized_message_t``."""
-
-    _fields_ = (
-        ('buffer', ctypes.c_void_p),
-        ('length', ctypes.c_size_t),
-        ('capacity', ctypes.c_size_t),
-        ('allocator', _Allocator),
-    )
 
 
 class _MessageInfo(ctypes.Structure):
@@ -93,7 +78,7 @@ def _rcl() -> ctypes.CDLL:
     library = ctypes.CDLL(_LIBRARY)
     try:
         library.rcl_take_serialized_message.restype = ctypes.c_int
-        library.rcutils_get_default_allocator.restype = _Allocator
+        library.rcutils_get_default_allocator.restype = Allocator
         library.rcutils_uint8_array_fini.restype = ctypes.c_int
     except AttributeError as error:
         raise OSError(str(error)) from error

@@ -5,7 +5,6 @@
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, ExitStack
-from datetime import datetime
 import math
 import os
 from pathlib import Path
@@ -69,11 +68,6 @@ def _float(text: str) -> float:
         return float(text)
     except ValueError:
         raise ArgumentTypeError(f'{text} is not the valid type (float)') from None
-
-
-def default_folder() -> str:
-    """Return the name of a bag that was given none: by the time."""
-    return datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
 
 
 def nanoseconds(seconds: float) -> int:

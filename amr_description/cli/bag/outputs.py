@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from amr_description.bag.folder_names import default_folder
 from amr_description.bag.mcap_writer import WriterOptions
 from amr_description.bag.reader import BagReader
 from amr_description.bag.rewriting import Output, rewrite, with_custom_data
-from amr_description.cli.bag.inputs import default_folder
 
 
 def write(readers: Sequence[BagReader], args: Namespace, output: Output) -> int:

@@ -15,7 +15,7 @@ from argparse import ArgumentParser, Namespace
 import os
 import sys
 
-from amr_description.cli.bag.inputs import default_folder
+from amr_description.bag.folder_names import default_folder
 from amr_description.cli.bag.record_arguments import add_recorder_arguments
 
 

@@ -31,7 +31,7 @@ from rclpy.subscription import Subscription
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.qos_text import QosProfile
-from amr_description.bag.ros.recorder import from_rclpy
+from amr_description.bag.ros.qos_profiles import from_rclpy
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.type_hashes import type_hash
 from amr_description.clock import NANOSECONDS
