@@ -26,7 +26,7 @@ import zstandard
 
 from amr_description.bag import compression, metadata, qos_text
 from amr_description.bag.metadata import BagMetadata, FileInformation, TopicInformation
-from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.bag.storage import BagMessage, FileExtent, TopicMetadata
 from amr_description.errors import BagError
 from amr_description.text import shorten
 
@@ -131,6 +131,13 @@ class McapFile:
             content.end_time - content.starting_time,
             sum(content.counts.values()),
         )
+
+    @property
+    def extent(self) -> FileExtent | None:
+        """Between which times there are messages, and of what; None: there are none."""
+        content = self._content
+        names = {each.topic for n, each in content.channels.items() if content.counts.get(n)}
+        return FileExtent(content.starting_time, content.end_time, names) if names else None
 
     @property
     def own_metadata(self) -> BagMetadata | None:

@@ -45,7 +45,7 @@ class Recording(Protocol):
         """The time of the first message, ns."""
 
     def messages(self, start: int) -> Iterator[BagMessage]:
-        """Yield the messages from a time on, in the order of their times."""
+        """Yield the messages from a time on, in the order of their times, run after run."""
 
     def latched_before(self, time: int) -> Sequence[BagMessage]:
         """Return the messages that a subscription which begins at that time would still get."""
@@ -74,6 +74,8 @@ class Playback:
         self._steady = steady
         self.loops = 0
         """How often it has begun anew."""
+        self.resets = 0
+        """How often times began again since then, or since a place was sought: runs that ended."""
         self._begin(options)
         self.clock = PlaybackClock(
             self._start, steady, rate=options.rate, paused=options.start_paused
@@ -89,6 +91,7 @@ class Playback:
         self._queue: deque[BagMessage] = deque()
         self._rest: Iterator[BagMessage] = iter(())
         self._count = 0  # since it has begun the last time
+        self._newest = 0
         self._finished = False
 
     @property
@@ -102,7 +105,11 @@ class Playback:
 
     @property
     def begin(self) -> int:
-        """The place from which it plays, ns: what is older was latched, and comes at once."""
+        """
+        The place from which it plays, ns: what is older was latched, and comes at once.
+
+        Where times begin again, it is that.
+        """
         return self._from
 
     @property
@@ -183,6 +190,7 @@ class Playback:
 
     def _go_to(self, time: int) -> None:
         self._from = time
+        self._newest = self.resets = 0
         self._latched = deque(self._recording.latched_before(time))
         self._queue.clear()
         self._rest = self._recording.messages(time)
@@ -206,11 +214,17 @@ class Playback:
                 return None
             self._queue.append(message)
         message = self._queue[0]
+        if message.log_time < self._newest:
+            self.resets += 1
+            self._newest = self._from = message.log_time
+            self.clock.jump(message.log_time)
         return message if self._until < 0 or message.log_time <= self._until else None
 
     def _take(self) -> BagMessage:
         self._count += 1
-        return self._queue.popleft()
+        message = self._queue.popleft()
+        self._newest = message.log_time
+        return message
 
 
 def _last_time(options: PlaybackOptions, start: int) -> int:

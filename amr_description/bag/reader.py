@@ -1,10 +1,17 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""``BagReader``: the messages of a bag in the order of their times, from whatever is there."""
+"""
+``BagReader``: the messages of a bag in the order of their times, from whatever is there.
 
-from collections.abc import Collection, Iterable, Iterator
+A file whose times begin again, as after the reset of a simulation, is the begin of another run:
+runs are read one after the other, each in the order of its times.
+"""
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import suppress
+from functools import cached_property
 import heapq
+from itertools import chain
 import os
 from pathlib import Path
 
@@ -12,13 +19,15 @@ from amr_description.bag import compression, mcap_file, metadata, sqlite_file
 from amr_description.bag.mcap_file import McapFile
 from amr_description.bag.metadata import BagMetadata, TopicInformation
 from amr_description.bag.sqlite_file import SqliteFile
-from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.bag.storage import BagMessage, FileExtent, TopicMetadata
 from amr_description.errors import BagError
 from amr_description.text import shorten
 
 STORAGES = {'mcap': ('.mcap',), 'sqlite3': ('.db3',)}
 """The ends of the names of files, by the name of their storage."""
 _LATEST = 2**63 - 1  # ns; larger ones SQLite does not know
+_DISORDER = 100_000_000
+"""ns by which a file may begin before the end of the one before: what came late to a recorder."""
 
 
 class BagReader:
@@ -112,23 +121,80 @@ class BagReader:
         end: int | None = None,
     ) -> Iterator[BagMessage]:
         """
-        Yield the messages in the order of their log times, over all files.
+        Yield the messages in the order of their log times, over all files of a run.
 
         Args:
             topics: which; None: all.
-            start: the first log time, ns; None: from the beginning.
-            end: the last log time, ns; None: to the end.
+            start: the first log time of each run, ns; None: from the beginning.
+            end: the last log time of each run, ns; None: to the end.
 
         Raises:
             BagError: a part of the bag cannot be read.
         """
+        runs = range(len(self.runs))
+        return chain.from_iterable(self.messages_of_run(each, topics, start, end) for each in runs)
+
+    @property
+    def runs(self) -> list[tuple[int, int]]:
+        """
+        The first and the last time of each run, ns: one, unless times begin again in a file.
+
+        Raises BagError.
+        """
+        return [(begin, end) for begin, end, _ in self._runs]
+
+    @property
+    def run_of_files(self) -> list[int]:
+        """In which run each of the files is. Raises BagError."""
+        return [run for run, (*_, files) in enumerate(self._runs) for _ in files]
+
+    @cached_property
+    def _runs(self) -> list[tuple[int, int, list[McapFile | SqliteFile]]]:
+        files = list[McapFile | SqliteFile](self._files)
+        return [
+            (begin, end, [files[each] for each in indices])
+            for begin, end, indices in runs_of([file.extent for file in files])
+        ]
+
+    def keep_last_run(self) -> None:
+        """
+        Go on as if the last run in which time passes was all; BagError.
+
+        A simulation that ends leaves one without any, as it removes its robots at a last time 0.
+        """
+        if len(self._runs) == 1:
+            return
+        found = self._runs
+        kept = next((each for each in reversed(found) if each[1] > each[0]), found[-1])
+        for *_, files in found:
+            if files is not kept[2]:
+                for file in files:
+                    file.close()
+        if self.storage == 'mcap':
+            self._files = [file for file in kept[2] if isinstance(file, McapFile)]
+        else:
+            self._files = [file for file in kept[2] if isinstance(file, SqliteFile)]
+        self._runs = [kept]
+        self.metadata = rebuilt(self._files, self.storage)
+
+    def messages_of_run(
+        self,
+        run: int,
+        topics: Collection[str] | None = None,
+        start: int | None = None,
+        end: int | None = None,
+    ) -> Iterator[BagMessage]:
+        """Yield the messages of a run, as :meth:`messages`; of one that is not there none."""
+        if run >= len(self._runs):
+            return
+        *_, of_run = self._runs[run]
         first, last = start or 0, _LATEST if end is None else end
         found: Iterable[BagMessage]
         if self.storage == 'mcap':
-            files = [file for file in self._files if isinstance(file, McapFile)]
+            files = [file for file in of_run if isinstance(file, McapFile)]
             found = mcap_file.in_order(files, topics, first, last)
         else:
-            bases = [file for file in self._files if isinstance(file, SqliteFile)]
+            bases = [file for file in of_run if isinstance(file, SqliteFile)]
             found = heapq.merge(
                 *(base.messages(topics, first, last) for base in bases),
                 key=lambda message: message.log_time,
@@ -166,6 +232,31 @@ class BagReader:
             own.topics_with_message_count = file.topics
             own.starting_time, own.duration = information.starting_time, information.duration
         return own
+
+
+def runs_of(extents: Sequence[FileExtent | None]) -> list[tuple[int, int, list[int]]]:
+    """
+    Return the runs of files, in their order: the first and the last time, ns, and which files.
+
+    Files of other topics at the same times, as of two recorders, are of one run.
+    """
+    runs: list[tuple[int, int, list[int]]] = [(0, 0, [])]
+    topics: set[str] = set()
+    for index, extent in enumerate(extents):
+        if extent is None:
+            runs[-1][2].append(index)
+            continue
+        begin, end, files = runs[-1]
+        if not topics:
+            begin, end = extent.begin, extent.end
+        is_again = extent.begin < end and (extent.begin <= begin or extent.begin < end - _DISORDER)
+        if is_again and topics & extent.topics:
+            topics = set(extent.topics)
+            runs.append((extent.begin, extent.end, [index]))
+        else:
+            topics |= extent.topics
+            runs[-1] = min(begin, extent.begin), max(end, extent.end), [*files, index]
+    return runs
 
 
 def rebuilt(files: Iterable[McapFile] | Iterable[SqliteFile], storage: str) -> BagMetadata:

@@ -7,7 +7,9 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 import heapq
+from itertools import chain
 from pathlib import Path
+from typing import NamedTuple
 
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
@@ -19,8 +21,21 @@ _MOST_LATCHED = 100_000  # messages, whatever a bag says
 _TRANSFORMS = 'tf2_msgs/msg/TFMessage'
 
 
+class Split(NamedTuple):
+    """Where a file of a bag begins: the time, ns, its path, and the number of its run."""
+
+    begin: int
+    path: Path
+    run: int = 0
+
+
 class BagRecording:
-    """The chosen topics of one bag or several, in the order of their times."""
+    """
+    The chosen topics of one bag or several, in the order of their times.
+
+    Where times begin again another run begins, as after the reset of a simulation: the first runs
+    of all bags come first, then the second ones.
+    """
 
     def __init__(
         self, readers: Sequence[BagReader], holds: Callable[[TopicMetadata], bool] = lambda _: True
@@ -55,13 +70,15 @@ class BagRecording:
 
     @property
     def start(self) -> int:
-        """The time of the first message, ns."""
-        used = [each.metadata for each in self._readers if each.metadata.message_count]
-        return min((each.starting_time for each in used), default=0)
+        """The time of the first message, ns. Raises BagError."""
+        used = [each for each in self._readers if each.metadata.message_count]
+        if self.runs > 1:
+            return min(each.runs[0][0] for each in used)
+        return min((each.metadata.starting_time for each in used), default=0)
 
     @property
     def end(self) -> int:
-        """The time of the last message, ns."""
+        """The last time of any message, ns."""
         used = [each.metadata for each in self._readers if each.metadata.message_count]
         return max((each.end_time for each in used), default=0)
 
@@ -70,18 +87,53 @@ class BagRecording:
         """The text of each type that the bags have, by its name."""
         return {name: text for each in self._readers for name, text in each.schemas.items()}
 
-    def messages(self, start: int, end: int | None = None) -> Iterator[BagMessage]:
-        """Yield the messages from a time on, up to another, both ns. Raises BagError."""
-        return self._of(self.topics, start, end)
+    @property
+    def runs(self) -> int:
+        """How many there are: one, unless times begin again. Raises BagError."""
+        return max((len(each.runs) for each in self._readers), default=1)
 
-    def latched_before(self, time: int) -> list[BagMessage]:
-        """Return the messages that a subscription which begins at that time would still get."""
+    def run_at(self, time: int) -> int:
+        """Return the number of the first run that goes on at a time, ns, or after it. BagError."""
+        for run in range(self.runs - 1):
+            spans = (each.runs[run] for each in self._readers if run < len(each.runs))
+            if any(end >= time for _, end in spans):
+                return run
+        return self.runs - 1
+
+    def messages(self, start: int) -> Iterator[BagMessage]:
+        """Yield the messages from a time of the first run that has it on, ns. Raises BagError."""
+        run = self.run_at(start)
+        later = range(run + 1, self.runs)
+        return chain(
+            self._of(self.topics, run, start, None),
+            chain.from_iterable(self._of(self.topics, each, 0, None) for each in later),
+        )
+
+    def messages_of_run(
+        self, run: int, start: int, end: int | None = None
+    ) -> Iterator[BagMessage]:
+        """Yield the messages of a run from a time on, up to another, both ns. Raises BagError."""
+        return self._of(self.topics, run, start, end)
+
+    def latched_before(self, time: int, run: int | None = None) -> list[BagMessage]:
+        """
+        Return the messages that a subscription which begins at a time would still get.
+
+        Args:
+            time: ns.
+            run: of which that is a time; None: the first one that has it.
+
+        Raises:
+            BagError: the bag cannot be read.
+        """
+        if run is None:
+            run = self.run_at(time)
         depths = {
             name: depth
             for name, topic in self.topics.items()
             if (depth := latched_depth(topic.offered_qos_profiles))
         }
-        if time <= self.start or not depths:
+        if (not run and time <= self.start) or not depths:
             return []
         for name in depths:
             # Who published what is not recorded. A transform that is published once must not be
@@ -89,25 +141,33 @@ class BagRecording:
             topic = self.topics[name]
             if topic.type == _TRANSFORMS and len(topic.offered_qos_profiles) > 1:
                 depths[name] = _UNBOUNDED
-        kept: dict[str, deque[BagMessage]] = {n: deque(maxlen=d) for n, d in depths.items()}
-        for message in self._of(depths, 0, time - 1):
-            kept[message.topic].append(message)
-        found = [message for each in kept.values() for message in each]
-        return sorted(found, key=lambda message: message.log_time)
+        kept: dict[str, deque[tuple[int, BagMessage]]] = {
+            name: deque(maxlen=depth) for name, depth in depths.items()
+        }
+        for each in range(run + 1):
+            for message in self._of(depths, each, 0, None if each < run else time - 1):
+                kept[message.topic].append((each, message))
+        found = [pair for each in kept.values() for pair in each]
+        found.sort(key=lambda pair: (pair[0], pair[1].log_time))
+        return [message for _, message in found]
 
-    def splits(self) -> list[list[tuple[int, Path]]]:
-        """Return the begin of each file, ns, and its path, for each bag."""
+    def splits(self) -> list[list[Split]]:
+        """Return where each file begins, for each bag. Raises BagError."""
         return [
             [
-                (file.starting_time, path)
-                for file, path in zip(each.metadata.files, each.file_paths, strict=False)
+                Split(file.starting_time, path, run)
+                for file, path, run in zip(
+                    each.metadata.files, each.file_paths, each.run_of_files, strict=False
+                )
             ]
             for each in self._readers
         ]
 
-    def _of(self, topics: Iterable[str], start: int, end: int | None) -> Iterator[BagMessage]:
+    def _of(
+        self, topics: Iterable[str], run: int, start: int, end: int | None
+    ) -> Iterator[BagMessage]:
         names = set(topics)
-        found = [each.messages(names, start, end) for each in self._readers]
+        found = [each.messages_of_run(run, names, start, end) for each in self._readers]
         if len(found) == 1:
             return found[0]
         return heapq.merge(*found, key=lambda message: message.log_time)
@@ -116,20 +176,28 @@ class BagRecording:
 class SplitWatch:
     """Notices by the times of messages that the next file of a bag has begun."""
 
-    def __init__(self, splits: Iterable[Sequence[tuple[int, Path]]]) -> None:
+    def __init__(self, splits: Iterable[Sequence[Split]]) -> None:
         """``splits``: as of :meth:`BagRecording.splits`."""
-        self._bags = [sorted(each) for each in splits if len(each) > 1]
+        self._bags = [
+            sorted((Split(*each) for each in files), key=_run_and_begin)
+            for files in splits
+            if len(files) > 1
+        ]
         self._current = [0] * len(self._bags)
 
-    def pass_time(self, time: int) -> list[tuple[Path, Path]]:
-        """Return the files that ended before a message of this time, ns, and those after them."""
+    def pass_time(self, time: int, run: int = 0) -> list[tuple[Path, Path]]:
+        """Return the files that ended before a time of a run, ns, and those after them."""
         passed = []
         for index, files in enumerate(self._bags):
-            place = max(0, bisect_right(files, time, key=lambda file: file[0]) - 1)
+            place = max(0, bisect_right(files, (run, time), key=_run_and_begin) - 1)
             before = self._current[index]
-            passed += [(files[n][1], files[n + 1][1]) for n in range(before, place)]
+            passed += [(files[n].path, files[n + 1].path) for n in range(before, place)]
             self._current[index] = place
         return passed
+
+
+def _run_and_begin(split: Split) -> tuple[int, int]:
+    return split.run, split.begin
 
 
 def latched_depth(profiles: Iterable[QosProfile]) -> int:

@@ -40,7 +40,8 @@ def rewrite(readers: Sequence[BagReader], outputs: Sequence[Output]) -> list[int
     Write bags of the messages of others, and return how many each has.
 
     Args:
-        readers: those of the others; of several the messages are merged by their times.
+        readers: those of the others; of several the messages are merged by their times, run by
+            run. A run of the input is one of the output, with the part of it that is written.
         outputs: what is written. If that fails, or is interrupted, none of them is left.
 
     Raises:
@@ -60,13 +61,14 @@ def rewrite(readers: Sequence[BagReader], outputs: Sequence[Output]) -> list[int
         starts = [output.start for output in outputs]
         ends = [output.end for output in outputs]
         start = min((each for each in starts if each is not None), default=0)
-        messages = everything.messages(
-            0 if None in starts else start,
-            None if None in ends else max(each for each in ends if each is not None),
-        )
-        for message in messages:
+        first = 0 if None in starts else start
+        last = None if None in ends else max(each for each in ends if each is not None)
+        for run in range(everything.runs):
             for writer in writers:
-                writer.write(message)
+                writer.begin(run)
+            for message in everything.messages_of_run(run, first, last):
+                for writer in writers:
+                    writer.write(message)
         counts = [writer.close() for writer in writers]
         made.pop_all()  # they stay
     return counts
@@ -79,21 +81,39 @@ class _Writer:
         self._first = 0 if output.start is None else output.start
         self._last = 2**63 if output.end is None else output.end
         self._topics = recording.topics
+        self._recording = recording
+        self._keeps_latched = output.keeps_latched and output.start is not None
+        self._run = 0
+        self._has_begun = False
         self._writer = BagWriter(output.folder, output.writer)
         made.callback(shutil.rmtree, output.folder, ignore_errors=True)
         made.callback(self._writer.close)
         schemas = recording.schemas
         for topic in recording.topics.values():
             self._writer.add_topic(topic, schemas.get(topic.type))
-        if output.keeps_latched and output.start is not None:
-            for message in recording.latched_before(output.start):
-                self._writer.write(message._replace(log_time=output.start))
+
+    def begin(self, run: int) -> None:
+        """What comes now is of a run."""
+        self._run, self._has_begun = run, False
 
     def write(self, message: BagMessage) -> None:
         if message.topic in self._topics and self._first <= message.log_time <= self._last:
+            if not self._has_begun:
+                self._begin()
             self._writer.write(message)
 
+    def _begin(self) -> None:
+        """Begin a file, unless this one is empty, with what was latched before."""
+        self._has_begun = True
+        if self._writer.message_count:
+            self._writer.split()
+        if self._keeps_latched:
+            for message in self._recording.latched_before(self._first, self._run):
+                self._writer.write(message._replace(log_time=self._first))
+
     def close(self) -> int:
+        if not self._writer.message_count:
+            self._begin()
         self._writer.close()
         return self._writer.message_count
 

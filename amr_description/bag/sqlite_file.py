@@ -17,7 +17,7 @@ from typing import Any
 
 from amr_description.bag import compression, qos_text
 from amr_description.bag.metadata import FileInformation, TopicInformation
-from amr_description.bag.storage import BagMessage, TopicMetadata
+from amr_description.bag.storage import BagMessage, FileExtent, TopicMetadata
 from amr_description.errors import BagError
 from amr_description.text import shorten
 
@@ -127,6 +127,13 @@ class SqliteFile:
         """Its times, and how many messages there are."""
         first, last = self._times
         return FileInformation(self.path.name, first, last - first, sum(self._counts.values()))
+
+    @property
+    def extent(self) -> FileExtent | None:
+        """Between which times there are messages, and of what; None: there are none. BagError."""
+        first, last = self._times
+        names = {topic.name for topic in self._topics.values()}  # to count would read the file
+        return FileExtent(first, last, names) if last else None
 
     def messages(
         self, topics: Collection[str] | None, start: int, end: int

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A topic and a message of a bag."""
+"""A topic and a message of a bag, and what a file has of them."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -20,6 +20,14 @@ class TopicMetadata:
     """Of each publisher that was there."""
     type_description_hash: str = ''
     """As ``RIHS01_…``; empty: not known."""
+
+
+class FileExtent(NamedTuple):
+    """Between which times a file has messages, ns, and of which topics."""
+
+    begin: int
+    end: int
+    topics: set[str]
 
 
 class BagMessage(NamedTuple):

@@ -170,6 +170,11 @@ def view_bag(path: Path, args: Sequence[str]) -> None:
             backend.server = server = _server(settings, backend, log.error, 0)
             if backend.recorded.broken:
                 log.warning(f'{backend.recorded.broken} messages of {path} are broken: left out')
+            if backend.left_out:
+                others = ', '.join(map(str, backend.left_out))
+                log.warning(
+                    f'{path}: only the last run, after a reset, is shown; others: {others}'
+                )
             with stop.on_stop(stopped.set):
                 server.start()
                 log.info(f'The page is at {server.url}')

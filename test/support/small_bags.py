@@ -40,12 +40,25 @@ def write_bag(
     **options: object,
 ) -> Path:
     """Write a bag of (ms after :data:`BEGIN`, topic, text); return its folder."""
+    return write_runs(folder, topics, texts, **options)
+
+
+def write_runs(
+    folder: Path,
+    topics: Iterable[TopicMetadata],
+    *files: Iterable[tuple[int, str, str]],
+    **options: object,
+) -> Path:
+    """Write a bag as :func:`write_bag`, with a file for each of these, whose times begin again."""
     with BagWriter(folder, WriterOptions(**options)) as writer:
         for each in topics:
             writer.add_topic(each)
-        for after, name, text in texts:
-            time = BEGIN + after * MS
-            writer.write(BagMessage(name, string(text), time, time - MS))
+        for number, texts in enumerate(files):
+            if number:
+                writer.split()
+            for after, name, text in texts:
+                time = BEGIN + after * MS
+                writer.write(BagMessage(name, string(text), time, time - MS))
     return folder
 
 

@@ -105,7 +105,9 @@ class Player:
         self._ending = False
         self._wake = threading.Event()
         self._thread = threading.Thread(target=self._run, name='player')
+        self._recording = recording
         self._splits = SplitWatch(recording.splits())
+        self._first_run = self._told_resets = 0
         self._split_event = node.create_publisher(ReadSplitEvent, 'events/read_split', 1)
         self._clock: Publisher | None = None
         self._time = Clock()
@@ -371,7 +373,7 @@ class Player:
         """Publish a message, or send it as a request; return whether that was done."""
         # What was latched is older than the place that it is played at, and time never goes back.
         time = max(message.log_time, self.playback.begin)
-        for closed, opened in self._splits.pass_time(time):
+        for closed, opened in self._splits.pass_time(time, self._run_of_message()):
             self._split_event.publish(
                 ReadSplitEvent(
                     closed_file=str(closed),
@@ -387,6 +389,16 @@ class Player:
             self._publish_clock(time)
         publisher.publish(message.data)
         return True
+
+    def _run_of_message(self) -> int:
+        """Return in which run of the recording it is, and say where another one begins."""
+        resets = self.playback.resets
+        if not resets:
+            self._first_run = self._recording.run_at(self.playback.begin)
+        elif resets > self._told_resets:
+            self._log.info('Playing the next run: times jump back, and tf2 drops what it knows.')
+        self._told_resets = resets
+        return self._first_run + resets
 
     def _await_acknowledgements(self) -> None:
         if self._ending:

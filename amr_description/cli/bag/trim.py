@@ -4,7 +4,8 @@
 Write a part of the time of a bag into another.
 
 What was latched before, such as robot descriptions, maps and fixed transforms, is kept, with the
-time of the begin: the part plays as the whole does.
+time of the begin: the part plays as the whole does. Of a simulation that was reset the part of
+each run is written.
 
 examples:
   ros2 bag trim my_bag -o part --start-offset 10 --duration 5
@@ -13,6 +14,7 @@ examples:
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from decimal import Decimal, InvalidOperation
+from itertools import chain
 from pathlib import Path
 
 from amr_description.cli.bag.inputs import add_output_arguments, add_reader_arguments, open_bags
@@ -78,7 +80,8 @@ def main(args: Namespace) -> int:
         if args.duration is not None:
             end = start + args.duration
         last = whole.end if end is None else end
-        if next(whole.messages(start, last), None) is None:
+        parts = (whole.messages_of_run(run, start, last) for run in range(whole.runs))
+        if next(chain.from_iterable(parts), None) is None:
             raise BagError(
                 f'{args.bag_path} has no message from {_text(start)} to {_text(last)} s: it goes '
                 f'from {_text(whole.start)} to {_text(whole.end)} s'

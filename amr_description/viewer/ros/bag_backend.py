@@ -78,6 +78,11 @@ class BagBackend:
         self._log_error = log_error
         self._reader = BagReader(path)
         try:
+            self.left_out: list[Path] = []
+            """Files of runs before the last one: the simulation was reset behind them."""
+            files = self._reader.file_paths
+            self._reader.keep_last_run()
+            self.left_out += [each for each in files if each not in self._reader.file_paths]
             self.recorded = Recorded(self._reader)
         except BaseException:
             self._reader.close()

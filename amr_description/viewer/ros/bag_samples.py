@@ -144,6 +144,7 @@ def read_series(path: Path, recorded: Recorded, topic: str, field: str) -> Serie
     stamps: list[float] = []
     values: list[float] = []
     with BagReader(path) as reader:
+        reader.keep_last_run()
         for message in reader.messages([topic]):
             try:
                 seconds, nanoseconds, value = fields.read(message.data)

@@ -226,11 +226,18 @@ def test_a_bag_without_a_robot_says_what_would_do(tmp_path):
     assert 'no topic /robot_description' in backend.server.last(Graph).hint
 
 
+NEW_FILE = 'new file'
+
+
 def write_messages(folder, *messages):
-    """Write a bag of (ms after the begin, topic, message, or its bytes and the type)."""
+    """Write a bag of (ms after the begin, topic, message, or its bytes and the type), NEW_FILE."""
     with BagWriter(folder) as writer:
         known = set()
-        for ms, name, message in messages:
+        for each in messages:
+            if each is NEW_FILE:
+                writer.split()
+                continue
+            ms, name, message = each
             data, kind = message if isinstance(message, tuple) else (None, type(message))
             if name not in known:
                 known.add(name)
@@ -287,6 +294,30 @@ def test_time_0_of_a_simulation_is_a_time(tmp_path):
     with shown(write_messages(tmp_path / 'begun', *clocks)) as backend:
         pages = Pages(backend)
         assert [pages.at(each)[1] for each in (0.0, 0.01)] == [0.0, 0.01]
+
+
+def odometry(x):
+    message = Odometry()
+    message.pose.pose.position.x = x
+    return message
+
+
+def test_of_a_simulation_that_was_reset_the_last_run_is_shown(tmp_path):
+    bag = write_messages(
+        tmp_path / 'reset',
+        *((ms, '/odom', odometry(ms / 1000)) for ms in range(0, 4000, 100)),
+        NEW_FILE,
+        *((ms, '/odom', odometry(5.0 + ms / 1000)) for ms in range(0, 3000, 100)),
+        NEW_FILE,
+        (0, '/odom', odometry(7.0)),  # as the simulation ended
+    )
+    with shown(bag) as backend:
+        assert [each.name for each in backend.left_out] == ['reset_0.mcap', 'reset_2.mcap']
+        recording = backend.server.last(Recording)
+        assert (recording.name, recording.messages) == ('reset', 30)
+        assert recording.length == pytest.approx(2.9)
+        series = ask(backend, ReadSeries(1, '/odom', 'pose.pose.position.x')).data
+        assert np.frombuffer(b64decode(series.values), '<f8')[[0, -1]] == pytest.approx((5, 7.9))
 
 
 def test_of_a_long_log_the_last_lines_are_kept(tmp_path):

@@ -7,12 +7,13 @@ from pathlib import Path
 import sys
 
 import pytest
-from support.small_bags import BEGIN, LATCHED, MS, text_of, topic, write_bag
+from support.small_bags import BEGIN, LATCHED, MS, text_of, topic, write_bag, write_runs
 
 from amr_description.bag.qos_text import QosProfile
-from amr_description.bag.reader import BagReader
+from amr_description.bag.reader import BagReader, runs_of
 from amr_description.bag.recording import BagRecording, latched_depth, offer_of, SplitWatch
 from amr_description.bag.ros.keyboard import DOWN, keys, names_of, RIGHT, SPACE, UP
+from amr_description.bag.storage import FileExtent
 from amr_description.errors import BagError
 from amr_description.terminal import KeyParser
 
@@ -90,6 +91,65 @@ def test_files_follow_each_other_by_their_begins():
     assert watch.pass_time(11) == []
     assert watch.pass_time(0) == []  # sought
     assert watch.pass_time(25) == [('a', 'b'), ('b', 'c')]
+
+
+TOPICS = [topic('/map', LATCHED), topic('/chatter')]
+DRIVE = ([(5, '/map', 'm'), (7, '/chatter', 'a')], [(2, '/chatter', 'b'), (8, '/chatter', 'c')])
+
+
+@pytest.fixture
+def runs(tmp_path):
+    with BagReader(write_runs(tmp_path / 'drive', TOPICS, *DRIVE)) as reader:
+        yield BagRecording([reader])
+
+
+def texts_of(messages):
+    return [text_of(each.data) for each in messages]
+
+
+@pytest.mark.parametrize(
+    ('start', 'texts', 'latched'),
+    [(5, 'mabc', ''), (6, 'abc', 'm'), (8, 'c', 'm'), (9, '', 'm')],
+)
+def test_runs_are_played_one_after_the_other(runs, start, texts, latched):
+    assert (runs.start, runs.end) == (BEGIN + 5 * MS, BEGIN + 8 * MS)
+    start = BEGIN + start * MS
+    assert texts_of(runs.messages(start)) == [*texts]
+    assert texts_of(runs.latched_before(start)) == [*latched]
+
+
+def test_files_follow_each_other_in_each_run(runs):
+    watch = SplitWatch(runs.splits())
+    assert watch.pass_time(BEGIN + 7 * MS) == []
+    [(closed, opened)] = watch.pass_time(BEGIN + 2 * MS, 1)
+    assert (closed.name, opened.name) == ('drive_0.mcap', 'drive_1.mcap')
+
+
+def test_runs_of_several_bags_are_merged_run_by_run(tmp_path, runs):
+    other = write_runs(tmp_path / 'other', TOPICS, [(6, '/chatter', 'x')], [(0, '/chatter', 'y')])
+    with BagReader(tmp_path / 'drive') as first, BagReader(other) as second:
+        assert texts_of(BagRecording([first, second]).messages(0)) == [*'mxaybc']
+
+
+def extent(begin, end, *topics):
+    return FileExtent(begin * MS, end * MS, set(topics))
+
+
+@pytest.mark.parametrize(
+    ('extents', 'runs'),
+    [
+        ([extent(0, 900, 'a'), extent(900, 2000, 'a')], [[0, 1]]),
+        ([extent(0, 900, 'a'), extent(850, 2000, 'a')], [[0, 1]]),  # came late to the recorder
+        ([extent(0, 900, 'a'), extent(1, 2000, 'a')], [[0], [1]]),
+        ([extent(10, 20, 'a'), extent(10, 30, 'a')], [[0], [1]]),
+        ([extent(10, 20, 'a'), extent(10, 30, 'b')], [[0, 1]]),  # of two recorders
+        ([extent(0, 900, 'a'), None, extent(0, 10, 'a'), extent(10, 20, 'a')], [[0, 1], [2, 3]]),
+        ([extent(5, 5, 'a'), extent(5, 5, 'a')], [[0, 1]]),
+        ([None], [[0]]),
+    ],
+)
+def test_a_run_begins_where_times_of_a_topic_do_so_again(extents, runs):
+    assert [files for *_, files in runs_of(extents)] == runs
 
 
 @pytest.mark.parametrize(

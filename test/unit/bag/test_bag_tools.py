@@ -8,7 +8,7 @@ import re
 import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import get_typestore, Stores
-from support.small_bags import BEGIN, LATCHED, MS, read_bag, string, topic, write_bag
+from support.small_bags import BEGIN, LATCHED, MS, read_bag, string, topic, write_bag, write_runs
 import yaml
 
 from amr_description.bag import rewriting
@@ -53,6 +53,31 @@ def test_a_part_has_what_was_latched_before(flags, begin, scans, capsys):
         assert reader.metadata.starting_time == BEGIN + begin * MS
         assert reader.topics['/tf_static'].offered_qos_profiles == (LATCHED, LATCHED)
         assert reader.metadata.custom_data == {'robot': 'rover'}
+
+
+RUNS = (
+    [(5, '/map', 'm'), (10, '/scan', '10'), (700, '/scan', '700')],
+    [(1, '/scan', '1'), (300, '/scan', '300'), (800, '/scan', '800')],
+)
+
+
+@pytest.mark.parametrize(
+    ('words', 'written'),
+    [
+        (('merge', 'drive'), RUNS),
+        (('filter', 'drive', '--topics', '/scan'), (RUNS[0][1:], RUNS[1])),
+        (
+            ('trim', 'drive', '--start-offset', '0.2', '--duration', '0.5'),  # from 205 ms on
+            ([(205, '/map', 'm'), RUNS[0][2]], [(205, '/map', 'm'), RUNS[1][1]]),
+        ),
+        (('trim', 'drive', '--start-offset', '0.7'), ([(705, '/map', 'm'), RUNS[1][2]],)),
+    ],
+)
+def test_runs_of_a_simulation_that_was_reset_stay_apart(words, written):
+    write_runs(Path('drive'), TOPICS, *RUNS)
+    assert run(*words, '-o', 'out') == 0
+    assert [read_bag(file) for file in sorted(Path('out').glob('*.mcap'))] == [*written]
+    assert read_bag(Path('out')) == [each for part in written for each in part]
 
 
 def test_the_begin_of_a_bag_is_kept_as_it_is():

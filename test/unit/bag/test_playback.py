@@ -71,6 +71,20 @@ def test_messages_are_due_at_the_times_of_the_recording_by_the_rate(rate, times)
     assert player.playback.finished
 
 
+class Runs(Recording):
+    """In which times begin again."""
+
+    def messages(self, start):
+        yield from self.all[[m.log_time for m in self.all].index(start) :]
+
+
+def test_the_next_run_is_played_with_its_own_times():
+    player = Player(Runs(0, 300, 100, 200))
+    assert player.play() == [(0, 0), (300, 300), (300, 100), (400, 200)]
+    assert (player.playback.resets, player.playback.begin) == (1, BEGIN + 100 * MS)
+    assert player.playback.finished
+
+
 def test_what_is_late_does_not_delay_what_follows():
     player = Player(Recording(0, 100, 300))
     assert player.due() == [0]
