@@ -31,7 +31,7 @@ from rosgraph_msgs.msg import Clock
 from service_msgs.msg import ServiceEventInfo
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
-from support.small_bags import BEGIN, LATCHED, MS, string, topic, write_bag
+from support.small_bags import BEGIN, LATCHED, MS, string, topic, write_bag, write_runs
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.playback import PlaybackOptions
@@ -311,6 +311,18 @@ def test_the_next_file_is_told(host, tmp_path):
         str(bag / 'bag_1.mcap'),
         '/rosbag2_player',
     )
+
+
+def test_the_clock_jumps_back_with_the_next_run(host, tmp_path, capfd):
+    runs = [(10, '/chatter', 'a'), (20, '/chatter', 'b')], [(0, '/chatter', 'c')]
+    bag = write_runs(tmp_path / 'bag', [topic('/chatter')], *runs)
+    host.hear('/clock', Clock)
+    with host.player(bag, awaited=('/clock',), clock_topics=(), playback=SLOW) as player:
+        player.start()
+        host.until(lambda: player.is_over and len(host.heard) == 3)
+    times = [(nanoseconds(message.clock) - BEGIN) // MS for _, message in host.heard]
+    assert times == [10, 20, 0]
+    assert capfd.readouterr().err.count('Playing the next run: times jump back') == 1
 
 
 def test_what_cannot_be_acknowledged_is_told(host, tmp_path, capfd):
