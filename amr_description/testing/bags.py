@@ -10,16 +10,17 @@ are ``ros_bag`` and ``ros_bag_dir``.
 
 A recording begins with the test, at time 0. Where the test resets the simulation, each part is a
 file of its own: ``….test_ramp_0.mcap``, ``….test_ramp_1.mcap``.
+
+A simulation has one recording. Where a test records by itself, that of the option ends before it,
+and the report names both.
 """
 
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 import shlex
 import shutil
 import tempfile
-from typing import Protocol
 
 import pytest
 
@@ -30,18 +31,46 @@ CHOICES = ('never', 'on-failure', 'always')
 _FOLDER = 'ros_bags'
 
 
-class Recordable(Protocol):
-    """A running simulation."""
+class Recording:
+    """The one recording of a simulation: that of its test, or that of the option."""
 
-    @property
-    def is_alive(self) -> bool:
-        """Whether it runs, and can be asked to end a recording."""
+    def __init__(self, record: Callable[[str], None], is_alive: Callable[[], bool]) -> None:
+        """
+        Record nothing yet.
 
-    def record(self, folder: str | Path) -> None:
-        """Record to a new folder."""
+        Args:
+            record: Ends the recording, and begins one to a folder; empty: none. Raises
+                SimulationError.
+            is_alive: Whether the simulation runs, and can be asked.
+        """
+        self._record, self._is_alive = record, is_alive
+        self.own: Path | None = None
+        """The folder to which the test itself records."""
 
-    def end_recording(self) -> None:
-        """Complete it."""
+    def begin_own(self, folder: Path) -> None:
+        """Record as the test says. Raises SimulationError."""
+        self._record(str(folder.absolute()))
+        self.own = folder
+
+    def end_own(self) -> None:
+        """End what the test has begun. Raises SimulationError: the bag is not complete."""
+        if self.own is not None or not _is_going(self):
+            self.own = None
+            self._record('')
+
+    def begin(self, folder: Path) -> None:
+        """Record as the option says. Raises SimulationError."""
+        self._record(str(folder))
+
+    def end(self) -> str:
+        """End that; return why its bag is not complete."""
+        if self.own is not None or not self._is_alive():
+            return ''
+        try:
+            self._record('')
+        except SimulationError as error:
+            return str(error) if self._is_alive() else ''
+        return ''
 
 
 @dataclass
@@ -51,7 +80,8 @@ class _Recordings:
     mode: str = CHOICES[0]
     temporary: Path | None = None
     count: int = 0
-    going: list[tuple[Recordable, Path]] = field(default_factory=list)
+    going: list[tuple[Recording, Path | None]] = field(default_factory=list)
+    """With the folder; None: the test records by itself."""
     written: set[Path] = field(default_factory=set)
 
 
@@ -87,45 +117,65 @@ def unconfigure() -> None:
     _recordings.mode = CHOICES[0]
 
 
-def begin(sim: Recordable) -> None:
+def begin(recording: Recording) -> None:
     """Record a simulation that begins a test, or is lent to it, if that is wanted."""
     if _recordings.mode == CHOICES[0]:
         return
-    _forget(sim)
+    _forget(recording)
+    if recording.own is not None:
+        _recordings.going.append((recording, None))
+        return
     if _recordings.temporary is None:
         _recordings.temporary = Path(tempfile.mkdtemp(prefix='amr-bags-'))
     _recordings.count += 1
     folder = _recordings.temporary / f'{_recordings.count}' / 'bag'
-    sim.record(folder)
-    _recordings.going.append((sim, folder))
+    recording.begin(folder)
+    _recordings.going.append((recording, folder))
 
 
 def add_bags(item: pytest.Item, report: pytest.TestReport) -> None:
     """End the recordings of a test; keep them if that is wanted, and say where they are."""
-    is_over = report.when == 'call' or report.failed
+    is_over = report.when in ('call', 'teardown') or report.failed or report.skipped
     if not is_over or not _recordings.going:
         return
     going, _recordings.going = _recordings.going, []
     is_kept = report.failed or _recordings.mode == 'always'
-    for sim, folder in going:
-        if sim.is_alive:
-            with suppress(SimulationError):  # it has just ended; what it has written is there
-                sim.end_recording()
+    for recording, folder in going:
+        reason = recording.end()
         if is_kept:
-            try:
-                lines = [_line(path) for path in _keep(item, report, folder)]
-            except OSError as error:  # a disk that is full shall not hide the failure of the test
-                lines = [f'no bag: {error}']
+            lines = _lines(item, report, folder)
+            if reason:
+                lines.append(f'not complete: {reason}')
+            if recording.own is not None:
+                lines.append(f'the test itself records to {recording.own}')
             report.sections.append(('ROS bag', '\n'.join(lines)))
+        _remove(folder)
+
+
+def _is_going(recording: Recording) -> bool:
+    """Whether the option records a simulation."""
+    return any(each is recording for each, _ in _recordings.going)
+
+
+def _forget(recording: Recording) -> None:
+    """Drop the recording of a simulation that begins another one in the same test."""
+    for each in [each for each in _recordings.going if each[0] is recording]:
+        _recordings.going.remove(each)
+        recording.end()
+        _remove(each[1])
+
+
+def _remove(folder: Path | None) -> None:
+    if folder is not None:
         shutil.rmtree(folder.parent, ignore_errors=True)
 
 
-def _forget(sim: Recordable) -> None:
-    """Drop the recording of a simulation that begins another one in the same test."""
-    for each in [each for each in _recordings.going if each[0] is sim]:
-        _recordings.going.remove(each)
-        sim.end_recording()
-        shutil.rmtree(each[1].parent, ignore_errors=True)
+def _lines(item: pytest.Item, report: pytest.TestReport, folder: Path | None) -> list[str]:
+    """Keep a bag, and return where it is."""
+    try:
+        return [] if folder is None else [_line(path) for path in _keep(item, report, folder)]
+    except OSError as error:  # a disk that is full shall not hide the failure of the test
+        return [f'no bag: {error}']
 
 
 def _line(path: Path) -> str:

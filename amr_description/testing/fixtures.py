@@ -83,7 +83,7 @@ def simulation() -> Iterator[MakeSimulation]:
             sim = running[key]
             if sim.is_alive:
                 sim.reset()
-                bags.begin(sim)
+                bags.begin(sim.recording)
                 return sim
             del running[key]
             try:

@@ -144,6 +144,12 @@ class Simulation:
         self._stack = ExitStack()
         self._lock_step: LockStep | None = None
         self._robots: dict[str, Robot] = {}
+        self.recording = bags.Recording(
+            lambda folder: self._running.set_parameter('record', folder), lambda: self.is_alive
+        )
+        """Which the test and ``--ros-bag`` share."""
+        if given := self._parameters.get('record'):
+            self.recording.own = Path(given)
 
     # --- beginning and end --------------------------------------------------------------------
 
@@ -170,7 +176,7 @@ class Simulation:
             self._begin()
             if self._record is not None:
                 self.record(self._record)
-            bags.begin(self)
+            bags.begin(self.recording)
             self._stack = stack.pop_all()
         return self
 
@@ -418,16 +424,17 @@ class Simulation:
         Record from now on: all that the simulator publishes, and the commands that act.
 
         Nothing is lost, and the same calls give the same files, byte for byte. A reset begins a
-        new file of the bag. It is complete after :meth:`end_recording`, or after the block.
+        new file of the bag. It is complete after :meth:`end_recording`, or after the block. That
+        of ``--ros-bag`` ends before.
 
         Args:
             folder: Of the bag, which must not be there.
         """
-        self._running.set_parameter('record', str(Path(folder).absolute()))
+        self.recording.begin_own(Path(folder))
 
     def end_recording(self) -> None:
-        """Complete the bag, if there is one."""
-        self._running.set_parameter('record', '')
+        """Complete the bag, if there is one; not that of ``--ros-bag``."""
+        self.recording.end_own()
 
     def replay(self, bag: str | Path) -> None:
         """
