@@ -34,17 +34,23 @@ _FOLDER = 'ros_bags'
 class Recording:
     """The one recording of a simulation: that of its test, or that of the option."""
 
-    def __init__(self, record: Callable[[str], None], is_alive: Callable[[], bool]) -> None:
+    def __init__(
+        self,
+        record: Callable[[str], None],
+        is_alive: Callable[[], bool],
+        own: str | Path | None = None,
+    ) -> None:
         """
-        Record nothing yet.
+        Record nothing more yet.
 
         Args:
             record: Ends the recording, and begins one to a folder; empty: none. Raises
                 SimulationError.
             is_alive: Whether the simulation runs, and can be asked.
+            own: The folder to which the simulation records from its start.
         """
         self._record, self._is_alive = record, is_alive
-        self.own: Path | None = None
+        self.own = Path(own) if own else None
         """The folder to which the test itself records."""
 
     def begin_own(self, folder: Path) -> None:

@@ -144,12 +144,8 @@ class Simulation:
         self._stack = ExitStack()
         self._lock_step: LockStep | None = None
         self._robots: dict[str, Robot] = {}
-        self.recording = bags.Recording(
-            lambda folder: self._running.set_parameter('record', folder), lambda: self.is_alive
-        )
-        """Which the test and ``--ros-bag`` share."""
-        if given := self._parameters.get('record'):
-            self.recording.own = Path(given)
+        own = self._parameters.get('record')
+        self.recording = bags.Recording(self._set_record, lambda: self.is_alive, own)
 
     # --- beginning and end --------------------------------------------------------------------
 
@@ -431,6 +427,9 @@ class Simulation:
             folder: Of the bag, which must not be there.
         """
         self.recording.begin_own(Path(folder))
+
+    def _set_record(self, folder: str) -> None:
+        self._running.set_parameter('record', folder)
 
     def end_recording(self) -> None:
         """Complete the bag, if there is one; not that of ``--ros-bag``."""

@@ -49,6 +49,7 @@ from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import Encoder, encoder_of
 from amr_description.control.ros.tape import Sink, Tape, TapedInput, TapedPublisher
 from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.message_types import type_name
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import (
     bytes_publisher,
@@ -78,7 +79,7 @@ class LoopTopic:
     """A topic on which samples go out at the end of a cycle; :meth:`LoopPublisher.topic`."""
 
     __slots__ = (
-        'publisher', 'is_heard', 'keeps_last', 'newest', 'sink',
+        'publisher', 'is_heard', 'keeps_last', 'newest', 'sink', '_is_latched', '_latest',
         '_keeps_many', '_encode', '_publish_bytes', '_publish_without_lock', '_outbox',
     )  # fmt: skip
 
@@ -95,20 +96,29 @@ class LoopTopic:
         """The sample that has still to be kept for those."""
         self.sink: Sink | None = None
         """Records what is published, if anybody does; such a topic is always heard."""
+        self._is_latched = _is_latched(publisher)
+        self._latest: Any = _NOTHING
         self._encode, self._publish_bytes = encode, bytes_publisher(publisher)
         self._publish_without_lock = publisher_without_lock(publisher)
         self._outbox = outbox
 
+    @property
+    def type_name(self) -> str:
+        """Of its messages."""
+        return type_name(self.publisher.msg_type)
+
     def send(self, sample: Any) -> None:
         """Publish a sample at the end of this cycle; on the control thread."""
+        if self._is_latched:
+            self._latest = sample
         self._outbox.append((self, sample))
 
     def write(self, sample: Any) -> None:
         """Publish a sample now. Raises InvalidHandle: the topic is gone."""
-        made = self._encode(sample)
-        if self.sink is not None:
+        made, sink = self._encode(sample), self.sink
+        if sink is not None:
             made = made if isinstance(made, bytes) else serialize(made)
-            self.sink(made)
+            sink(made)
         if isinstance(made, bytes):
             self._publish_bytes(made)
         else:
@@ -121,8 +131,9 @@ class LoopTopic:
         Its encoder makes bytes. Raises InvalidHandle: the topic is gone.
         """
         made = self._encode(sample)
-        if self.sink is not None:
-            self.sink(made)
+        sink = self.sink  # which the control thread may take away
+        if sink is not None:
+            sink(made)
         self._publish_without_lock(made)
 
     def look(self) -> None:
@@ -131,9 +142,17 @@ class LoopTopic:
         self.is_heard = is_heard or self._keeps_many or self.sink is not None
 
     def attach(self, tape: Tape | None) -> None:
-        """Record from now on; None: no more, as the next look finds."""
-        self.sink = None if tape is None else tape.samples_of(self.publisher)
-        self.is_heard = self.is_heard or self.sink is not None
+        """Record from now on, what is latched first; None: no more, as the next look finds."""
+        sink = self.sink = None if tape is None else tape.samples_of(self.publisher)
+        self.is_heard = self.is_heard or sink is not None
+        if sink is not None and self._latest is not _NOTHING:
+            made = self._encode(self._latest)
+            sink(made if isinstance(made, bytes) else serialize(made))
+
+
+def _is_latched(publisher: Publisher) -> bool:
+    """Whether the last message is always there for who subscribes later."""
+    return bool(publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def _keeps_many(qos: QoSProfile) -> bool:
@@ -235,8 +254,7 @@ class LoopPublisher:
 
     def taped(self, publisher: Publisher) -> TapedPublisher:
         """Return what publishes at once, and is recorded, until the publisher is destroyed."""
-        is_latched = publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
-        taped = TapedPublisher(publisher, is_latched=is_latched)
+        taped = TapedPublisher(publisher, is_latched=_is_latched(publisher))
         self._add_taped(taped)
         return taped
 
@@ -257,6 +275,11 @@ class LoopPublisher:
             if self._tape is not None:
                 for publisher in publishers:
                     self._tape.forget(publisher)
+
+    @property
+    def message_types(self) -> set[str]:
+        """Names of the types of what is recorded now."""
+        return {each.type_name for each in self._taped}
 
     def set_tape(self, tape: Tape | None) -> None:
         """Record with a tape from now on; None: no more. On the control thread."""

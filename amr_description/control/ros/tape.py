@@ -15,6 +15,7 @@ from rclpy.subscription import Subscription
 
 from amr_description.control.contracts import Input
 from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.message_types import type_name
 
 type Sink = Callable[[bytes], None]
 """Takes a serialized message; on any thread."""
@@ -54,6 +55,11 @@ class TapedPublisher:
         self._latest: Any = None
         self._sink: Sink | None = None
 
+    @property
+    def type_name(self) -> str:
+        """Of its messages."""
+        return type_name(self.publisher.msg_type)
+
     def publish(self, message: Any) -> None:
         """Publish now, and record."""
         if self._is_latched:
@@ -79,6 +85,11 @@ class TapedInput:
     def __init__(self, port: Input[Any], subscription: Subscription) -> None:
         self.port = port
         self._subscription = subscription
+
+    @property
+    def type_name(self) -> str:
+        """Of its messages."""
+        return type_name(self._subscription.msg_type)
 
     def attach(self, tape: Tape | None) -> None:
         """Record from now on; None: no more."""

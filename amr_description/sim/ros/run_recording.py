@@ -6,13 +6,14 @@ Begins and ends recordings of a run, as the parameter ``record`` of the simulato
 Nothing of a recorder is loaded before the first one begins.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 import os
 from pathlib import Path
 import re
 import threading
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
@@ -83,16 +84,24 @@ class RunRecording:
         self._recorder: RunRecorder | None = None
         self._described: set[str] = set()
         """The topics of descriptions."""
+        self._run = RunDescription()
+        """As it was described last."""
+        self._describing = threading.Lock()
         self.on_begin: Callable[[], None] = lambda: None
         """Called on the control thread when a recording begins."""
-        node.add_on_set_parameters_callback(self._check)
-        node.add_post_set_parameters_callback(self._apply)
+        # Who sets the parameter is told whether the recording has begun, or is complete.
+        node.add_on_set_parameters_callback(self._on_parameters)
 
     def begin(self, folder: str) -> None:
         """Begin to record to a folder, which is made. Raises SimulationError."""
+        self._attach(self._make(folder, {}))
+
+    def _make(self, folder: str, given: Mapping[str, Any]) -> 'RunRecorder':
+        """``given``: parameters that have not been set yet."""
+        from amr_description.bag.type_hashes import type_hash
         from amr_description.sim.ros.run_recorder import RunOptions, RunRecorder
 
-        only, without = (self._pattern(name) for name in _FILTERS)
+        only, without = (self._pattern(name, given) for name in _FILTERS)
         try:
             recorder = RunRecorder(
                 Path(folder),
@@ -104,38 +113,67 @@ class RunRecording:
             )
         except BagError as error:
             raise SimulationError(f'{_PARAMETER}: {error}') from error
+        for name in self._publisher.message_types:
+            type_hash(name)  # of a file, for which the control thread has no time
+        return recorder
+
+    def _attach(self, recorder: 'RunRecorder') -> None:
+        """Record with it; files are read here, not on the control thread."""
+        self._recorder = recorder
+        texts = self._describe_anew()
 
         def attach() -> None:
             recorder.set_time(self._time())
             self.on_begin()
             self._publisher.set_tape(recorder)
-            self._recorder = recorder
-            self.update()
-            recorder.on_commands = self.update
+            recorder.on_failure = self._stop
+            recorder.on_commands = self._add_run
+            self._latch(recorder, texts)
             self.restart()
             self._publisher.reporters.append(self._report)
 
-        self._on_loop(attach)
-        self._log(Severity.INFO, f'Recording to {folder}')
+        try:
+            self._on_loop(attach)
+        except Exception as error:  # of a message that cannot be serialized, say
+            self.detach()
+            self._recorder = None
+            with suppress(BagError):
+                recorder.close()
+            raise SimulationError(f'{_PARAMETER}: {type(error).__name__}: {error}') from error
+        self._log(Severity.INFO, f'Recording to {recorder.folder}')
 
     def update(self) -> None:
-        """Record of what the run consists, if that has changed."""
-        if self._recorder is None:
-            return
+        """Record of what the run consists, if that has changed; on the ROS thread."""
+        if self._recorder is not None:
+            self._latch(self._recorder, self._describe_anew())
+
+    def _describe_anew(self) -> dict[str, tuple[str, bytes]]:
+        """Return the messages that tell of the robots: topic → type and bytes."""
         run = self._describe()
-        descriptions = {
-            f'{robot.namespace.rstrip("/")}/{_DESCRIPTION}': robot.description
+        with self._describing:
+            self._run = run
+        messages = {
+            f'{robot.namespace.rstrip("/")}/{_DESCRIPTION}': (TYPE, _message(robot.description))
             for robot in reversed(run.robots)
         }
-        for topic in self._described - descriptions.keys():
-            self._recorder.unlatch(topic)
-        for topic, text in descriptions.items():
-            self._recorder.latch(topic, TYPE, _message(text))
-        self._described = set(descriptions)
         fixed = self._transforms.set_robots(self._robots())
-        self._recorder.latch(FIXED, TF_TYPE, serialize(fixed))
-        run = replace(run, commands=tuple(sorted(self._recorder.commands)))
-        self._recorder.latch(TOPIC, TYPE, _message(run.to_text()))
+        return {**messages, FIXED: (TF_TYPE, serialize(fixed))}
+
+    def _latch(self, recorder: 'RunRecorder', messages: Mapping[str, tuple[str, bytes]]) -> None:
+        for topic in self._described - messages.keys():
+            recorder.unlatch(topic)
+        for topic, (kind, data) in messages.items():
+            recorder.latch(topic, kind, data)
+        self._described = set(messages)
+        self._add_run()
+
+    def _add_run(self) -> None:
+        """Record of what the run consists, as described last; on any thread."""
+        recorder = self._recorder
+        if recorder is not None:
+            with self._describing:  # the latest one is to be the last one
+                run = replace(self._run, commands=tuple(sorted(recorder.commands)))
+                recorder.latch(TOPIC, TYPE, _message(run.to_text()))
 
     def restart(self) -> None:
         """Record the transforms of links in the next cycle; on the control thread."""
@@ -148,53 +186,70 @@ class RunRecording:
             if message is not None:
                 self._recorder.add_sample(MOVING, TF_TYPE, serialize(message))
 
+    def detach(self) -> None:
+        """Record nothing that is published from now on; :meth:`end` completes the bag."""
+        if self._recorder is not None:
+            self._on_loop(self._stop)
+
+    def _stop(self) -> None:
+        """Hand nothing to the recorder any more; on the control thread."""
+        self._publisher.set_tape(None)
+        if self._report in self._publisher.reporters:
+            self._publisher.reporters.remove(self._report)
+
     def end(self) -> None:
-        """End the recording, if there is one; its bag is complete on return."""
+        """
+        End the recording, if there is one; its bag is complete on return.
+
+        Raises SimulationError: it is not, for the disk is full, say.
+        """
+        self.detach()
         recorder, self._recorder = self._recorder, None
         if recorder is None:
             return
-
-        def detach() -> None:
-            self._publisher.set_tape(None)
-            self._publisher.reporters.remove(self._report)
-
-        self._on_loop(detach)
         try:
             count = recorder.close()
         except BagError as error:
-            self._log(Severity.ERROR, f'{_PARAMETER}: {error}')
-        else:
-            self._log(Severity.INFO, f'Recorded {count} messages to {recorder.folder}')
+            raise SimulationError(
+                f'{_PARAMETER}: {recorder.folder} is not complete: {error}'
+            ) from error
+        self._log(Severity.INFO, f'Recorded {count} messages to {recorder.folder}')
 
-    def _pattern(self, name: str) -> re.Pattern[str] | None:
-        text = self._node.get_parameter(name).value
+    def close(self) -> None:
+        """End the recording with the process; what goes wrong is logged."""
+        try:
+            self.end()
+        except SimulationError as error:
+            self._log(Severity.ERROR, str(error))
+
+    def _pattern(self, name: str, given: Mapping[str, Any]) -> re.Pattern[str] | None:
+        text = given[name] if name in given else self._node.get_parameter(name).value
         try:
             return re.compile(text) if text else None
         except re.error as error:
             raise SimulationError(f"{name}: '{text}': {error}") from error
 
-    def _check(self, changed: Sequence[Parameter]) -> SetParametersResult:
-        reason = ''
-        for each in changed:
-            if each.name == _PARAMETER and each.value and os.path.lexists(each.value):
-                reason = f'{_PARAMETER}: {each.value} is there already; another name will do'
-            elif each.name in _FILTERS:
-                try:
-                    re.compile(each.value)
-                except re.error as error:
-                    reason = f"{each.name}: '{each.value}': {error}"
-        return SetParametersResult(successful=not reason, reason=reason)
+    def _on_parameters(self, changed: Sequence[Parameter]) -> SetParametersResult:
+        given = {each.name: each.value for each in changed}
+        try:
+            for name in given.keys() & set(_FILTERS):
+                self._pattern(name, given)
+            if _PARAMETER in given:
+                self._switch(given[_PARAMETER], given)
+        except SimulationError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
 
-    def _apply(self, changed: Sequence[Parameter]) -> None:
-        folder = next((each.value for each in changed if each.name == _PARAMETER), None)
-        if folder is None:
+    def _switch(self, folder: str, given: Mapping[str, Any]) -> None:
+        """End the recording; begin one to a folder, if there is one. Raises SimulationError."""
+        if not folder:
+            self.end()
             return
-        self.end()
-        if folder:
-            try:
-                self.begin(folder)
-            except SimulationError as error:
-                self._log(Severity.ERROR, str(error))
+        if os.path.lexists(folder):
+            raise SimulationError(f'{_PARAMETER}: {folder} is there already; another name will do')
+        recorder = self._make(folder, given)  # the former one goes on if that is refused
+        self.close()
+        self._attach(recorder)
 
 
 def controllers_text(path: str, robot: Robot | None) -> str:
@@ -218,7 +273,7 @@ def on_loop(
     put: Callable[[Callable[[], None]], None], is_running: Callable[[], bool]
 ) -> Callable[[Callable[[], None]], None]:
     """
-    Return what has the control thread make a call, and waits for it.
+    Return what has the control thread make a call, waits for it, and raises its error.
 
     Args:
         put: queues a call for the control thread.
@@ -228,15 +283,21 @@ def on_loop(
     def make(call: Callable[[], None]) -> None:
         done = threading.Event()
 
+        errors: list[Exception] = []
+
         def make_and_tell() -> None:
             try:
                 call()
+            except Exception as error:  # of the caller: the loop must go on
+                errors.append(error)
             finally:
                 done.set()
 
         if is_running():
             put(make_and_tell)
             done.wait(_PATIENCE)  # where it stands, the process has to end all the same
+            if errors:
+                raise errors[0]
         else:
             call()
 

@@ -320,9 +320,10 @@ class Simulation:
 
     def close(self) -> None:
         """Stop the control thread; then destroy the robots' nodes."""
-        self.recording.end()  # the end of the controllers is not part of the run
+        self.recording.detach()  # the end of the controllers is not part of the run
         self._sensors.stop()
         self.loop_thread.stop()
+        self.recording.close()  # a slow disk does not keep motors running
         self._sensors.close()
         self.entities.destroy()
         self.logs.stop()

@@ -15,11 +15,13 @@ from support.running_programs import PATIENCE
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
+from amr_description.bag.ros.message_cache import OVERHEAD
 from amr_description.control.contracts import Input, Port, Severity
 from amr_description.control.ros.encoders import filling
-from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, LoopTopic
 from amr_description.errors import BagError
 from amr_description.ros.cdr_padding import serialize
+from amr_description.sim.ros import run_recorder
 from amr_description.sim.ros.run_recorder import RunOptions, RunRecorder
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -38,6 +40,8 @@ class Host:
         self.loop_publisher = ClockedLoopPublisher(self.node)
         said = self.node.create_publisher(String, 'said', 1)
         self.said = self.loop_publisher.topic(said, filling(fill, String()))
+        names = self.node.create_publisher(String, 'names', LATCHED)
+        self.names = self.loop_publisher.topic(names, filling(fill, String()))
         self.now = self.loop_publisher.taped(self.node.create_publisher(String, 'now', LATCHED))
         subscription = self.node.create_subscription(String, 'heard', print, 1)
         self.heard = Input(Port('heard', 'std_msgs/msg/String'))
@@ -143,7 +147,63 @@ def test_a_reset_begins_a_file_with_what_is_latched(host):
     ]
 
 
-def test_what_was_latched_by_who_is_gone_is_in_no_later_file(host):
+def test_the_latched_sample_of_a_controller_is_in_each_file(host):
+    host.is_tick = False
+    host.names.send('sent once, at activation')
+    host.cycle(5)
+    host.record()
+    host.is_tick = True
+    host.cycle(10, 'a')
+    host.cycle(0, 'b')
+    host.is_tick = False
+    host.names.send('other names')
+    host.cycle(0)
+    host.end()
+    assert host.files() == [
+        [(0, '/names', 'sent once, at activation'), (10, '/said', 'a')],
+        [
+            (0, '/names', 'sent once, at activation'),
+            (0, '/said', 'b'),
+            (0, '/names', 'other names'),
+        ],
+    ]
+
+
+def test_a_reset_after_which_no_time_passes_begins_no_file(host):
+    host.now.publish(String(data='latched'))
+    host.record()
+    host.cycle(10, 'a')
+    host.is_tick = False
+    host.cycle(0, 'not in a tick')
+    host.now.publish(String(data='changed'))
+    host.end()
+    assert host.files() == [[(0, '/now', 'latched'), (10, '/said', 'a')]]
+
+
+def test_a_picture_is_published_when_the_recording_ends_meanwhile(host):
+    class Racing(LoopTopic):
+        """A topic whose sink the control thread takes away once it has been looked at."""
+
+        sinks = ()
+
+        @property
+        def sink(self):
+            return next(self.sinks, None)
+
+        @sink.setter
+        def sink(self, sink):
+            self.sinks = iter([sink])
+
+    publisher = host.node.create_publisher(String, 'picture', 1)
+    topic = Racing(publisher, lambda text: serialize(String(data=text)), [])
+    for write in (topic.write, topic.write_aside):
+        taken = []
+        topic.sink = taken.append
+        write('a')
+        assert taken == [serialize(String(data='a'))]
+
+
+def test_a_message_latched_by_a_removed_node_is_in_no_later_file(host):
     host.now.publish(String(data='latched'))
     recorder = host.record()
     recorder.latch('/robot_description', 'std_msgs/msg/String', serialize(String(data='robot')))
@@ -173,13 +233,68 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(host, monkeypatch):
         raise BagError('No space left on device')
 
     host.record()
+    host.recorder.on_failure = lambda: host.loop_publisher.set_tape(None)
     monkeypatch.setattr(BagWriter, 'write', refuse)
     host.cycle(10, 'a')
+    assert host.said.sink is None, 'it still makes what nobody hears'
     host.cycle(20, 'b')
     assert host.lines == [
         (Severity.ERROR, 'nothing is recorded any more: No space left on device')
     ]
-    host.end()
+    with pytest.raises(BagError, match='No space left on device'):
+        host.end()
+
+
+def test_a_fault_in_the_thread_that_writes_ends_the_recording_and_nothing_else(
+    host, monkeypatch, capsys
+):
+    def fail(self, message):
+        raise KeyError('a fault of ours')
+
+    monkeypatch.setattr(BagWriter, 'write', fail)
+    host.is_paced = True
+    host.record()
+    host.cycle(10, 'a')
+    host.is_paced = False
+    host.cycle(20, 'b')  # waits for the thread
+    with pytest.raises(BagError, match="the recorder failed: KeyError: 'a fault of ours'"):
+        host.end()
+    assert 'Traceback' in capsys.readouterr().err
+
+
+def test_a_disk_that_stands_does_not_keep_the_process(host, monkeypatch):
+    may_write, write = threading.Event(), BagWriter.write
+
+    def stand(self, message):
+        assert may_write.wait(PATIENCE)
+        write(self, message)
+
+    monkeypatch.setattr(BagWriter, 'write', stand)
+    monkeypatch.setattr(run_recorder, 'LONGEST_END', 0.05)
+    host.is_paced = True
+    host.record()
+    host.cycle(10, 'a')
+    try:
+        with pytest.raises(BagError, match=r'the disk has not taken all within 0\.05 s'):
+            host.end()
+    finally:
+        may_write.set()
+
+
+def test_what_a_slow_disk_has_not_taken_in_time_is_counted_and_the_bag_is_complete(
+    host, monkeypatch
+):
+    monkeypatch.setattr(run_recorder, 'LONGEST_DRAIN', -1.0)
+    host.record()
+    host.now.publish(String(data='latched'))
+    host.said.write('a')
+    host.recorder.begin_cycle(10)
+    host.said.write('b')
+    assert host.end() == 1
+    assert host.files() == [[(0, '/now', 'latched')]]
+    ((severity, line),) = host.lines
+    assert severity == Severity.WARN
+    assert line.startswith('1 messages were not recorded')
 
 
 def test_in_real_time_what_has_no_room_is_counted_and_said(host, monkeypatch):
@@ -197,11 +312,34 @@ def test_in_real_time_what_has_no_room_is_counted_and_said(host, monkeypatch):
     (line,) = host.lines
     assert line[0] == Severity.WARN
     assert line[1].startswith('2 messages were not recorded: the disk is too slow; ')
+    host.now.publish(String(data='kept'))
+    host.cycle(25)
     may_write.set()
     host.is_paced = False
     host.cycle(30, 'b')  # time waits for the disk
-    assert host.end() == 2
-    assert host.files() == [[(10, '/said', 'a'), (30, '/said', 'b')]]
+    host.cycle(0, 'c')
+    assert host.end() == 5
+    assert host.files() == [
+        [(10, '/said', 'a'), (20, '/now', 'kept'), (30, '/said', 'b')],
+        [(0, '/now', 'kept'), (0, '/said', 'c')],
+    ]
+
+
+def test_memory_is_bounded_for_many_small_messages_too(host, monkeypatch):
+    may_write, write = threading.Event(), BagWriter.write
+
+    def write_slowly(self, message):
+        assert may_write.wait(PATIENCE)
+        write(self, message)
+
+    monkeypatch.setattr(BagWriter, 'write', write_slowly)
+    host.is_paced = True
+    host.record(regex=re.compile('/said'), most_queued=10 * OVERHEAD)
+    for time in range(10, 500, 10):
+        host.cycle(time, '')
+    assert len(host.lines) == 1
+    may_write.set()
+    assert host.end() < 20
 
 
 def test_a_folder_that_is_there_is_refused(host):
