@@ -342,6 +342,7 @@ class _WriterThread:
                 self._write(items)
             finally:
                 with self._has_changed:
+                    self._size -= _size_of(items)
                     self._is_writing = False
                     self._has_changed.notify_all()
         with self._failing(), self._writing:
@@ -354,8 +355,8 @@ class _WriterThread:
             if not self._queue:
                 return None
             items = self._queue.popleft()
-            self._size -= _size_of(items)
             if self._end_of_drain is not None and wall.monotonic() > self._end_of_drain:
+                self._size -= _size_of(items)
                 items = self._without_messages(items)
             self._is_writing = True
             return items
