@@ -16,7 +16,9 @@ from amr_description.doctor.rules import (
     processes,
     sensors,
     transforms,
+    unexamined,
 )
+from amr_description.text import one_line
 
 RULES: tuple[Rule, ...] = (
     *machine.RULES,
@@ -30,6 +32,7 @@ RULES: tuple[Rule, ...] = (
     *commands.RULES,
     *sensors.RULES,
     *navigation.RULES,
+    *unexamined.RULES,
 )
 
 _FAMILIES = {rule.__name__: rule.__module__.rpartition('.')[2] for rule in RULES}
@@ -41,6 +44,17 @@ def family(rule: str) -> str:
 
 
 def examine(seen: Observations) -> list[Finding]:
-    """Return what all rules find: errors first, each in the order of the table."""
-    found = [finding for rule in RULES for finding in rule(seen)]
+    """
+    Return what all rules find: errors first, each in the order of the table.
+
+    A rule that raises takes no other one with it, whatever a robot of others has sent.
+    """
+    found: list[Finding] = []
+    faults: dict[str, str] = {}
+    for rule in RULES:
+        try:
+            found += rule(seen)
+        except Exception as error:
+            faults[f'the rule {rule.__name__}'] = one_line(f'{type(error).__name__}: {error}')
+    found += unexamined.unexamined(Observations(faults=faults))
     return sorted(found, key=lambda each: each.severity is not Severity.ERROR)

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 import importlib.util
 import os
-from pathlib import Path
 import re
 import sys
 from xml.etree import ElementTree
@@ -68,7 +67,7 @@ def _file_faults(variables: Mapping[str, str]) -> Iterator[tuple[str, str]]:
     )
     if is_enforced and not variables.get(_KEYSTORE):
         yield _KEYSTORE, 'is not set'
-    elif is_enforced and not Path(variables[_KEYSTORE]).is_dir():
+    elif is_enforced and not os.path.isdir(variables[_KEYSTORE]):
         yield _KEYSTORE, f'names no folder: {variables[_KEYSTORE]}'
 
 
@@ -86,7 +85,7 @@ def _xml_fault(file: str) -> str:
 
 
 def _missing(folders: str) -> tuple[str, ...]:
-    return tuple(each for each in folders.split(':') if each and not Path(each).is_dir())
+    return tuple(each for each in folders.split(':') if each and not os.path.isdir(each))
 
 
 def _rmw_implementations(variables: Mapping[str, str]) -> frozenset[str]:

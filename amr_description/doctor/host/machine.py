@@ -91,13 +91,15 @@ def _stalled() -> float:
 
 
 def _disks(variables: Mapping[str, str]) -> Iterator[Disk]:
-    folders = {
-        'log files': log_base(variables),
-        'the current folder': Path.cwd(),
-        'shared memory': Path('/dev/shm'),
-    }
+    folders: dict[str, Path] = {}
+    with suppress(RuntimeError):  # this user has no home
+        folders['log files'] = log_base(variables)
+    with suppress(OSError):  # it was deleted meanwhile
+        folders['the current folder'] = Path.cwd()
+    folders['shared memory'] = Path('/dev/shm')
     for purpose, folder in folders.items():
-        there = next((each for each in (folder, *folder.parents) if each.exists()), None)
+        # Path.exists raises where a folder may not be entered.
+        there = next((each for each in (folder, *folder.parents) if os.path.exists(each)), None)
         if there is None:
             continue
         with suppress(OSError):

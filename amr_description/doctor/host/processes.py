@@ -29,6 +29,7 @@ _SOCKET = re.compile(r'socket:\[(\d+)\]')
 _LOCK_END = '_el'
 _LOCK = re.compile(rf'fastrtps_[0-9a-f]+{_LOCK_END}')  # of segments; those of ports have a name
 _SETTLED = 5.0  # s
+_LONGEST_DOMAIN = 9  # digits; of thousands int() makes none
 _MEMORY = Path('/dev/shm')
 _PYTHON = re.compile(r'python[\d.]*$')
 
@@ -39,7 +40,7 @@ def read_processes(variables: Mapping[str, str]) -> Processes:
     found = list(_processes(owners))
     text = variables.get('ROS_DOMAIN_ID', '')
     return Processes(
-        domain=int(text) if text.isdecimal() else 0,
+        domain=int(text) if text.isdecimal() and len(text) < _LONGEST_DOMAIN else 0,
         processes=tuple(found),
         runs=frozenset(each.run for each in found if each.run and _is_supervised(each)),
         left_memory=_left_memory(),

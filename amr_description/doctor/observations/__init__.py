@@ -17,6 +17,7 @@ What was seen of a machine and a ROS graph. A section that was not observed is N
 ===================  =============================================================================
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from amr_description.doctor.observations.clock import Clock
@@ -48,3 +49,5 @@ class Observations:
     sensors: Sensors | None = None
     navigation: Navigation | None = None
     """Of a robot to which Nav2 or slam_toolbox listen."""
+    faults: Mapping[str, str] | None = None
+    """Sections that could not be observed → why; None: all that were tried could be."""

@@ -9,6 +9,7 @@ messages are large, or many, it subscribes with best effort and a short queue.
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any, Protocol
 
 from rclpy.node import Node
@@ -21,7 +22,9 @@ from amr_description.doctor.ros.description import DescriptionProbe
 from amr_description.doctor.ros.graph import GraphProbe
 from amr_description.doctor.ros.navigation import NavigationProbe
 from amr_description.doctor.ros.sensors import SensorsProbe
+from amr_description.doctor.ros.shared import forget
 from amr_description.doctor.ros.transforms import TransformsProbe
+from amr_description.text import one_line
 
 WINDOW = 3.0
 """s: longest time in which messages and answers are waited for."""
@@ -57,12 +60,49 @@ PROBES: dict[str, Callable[[], Probe]] = {
 """Fields of Observations, and what makes the probe of each."""
 
 
+class Guarded:
+    """A probe that takes no other one with it when it raises, whatever a robot has sent."""
+
+    def __init__(self, make: Callable[[], Probe]) -> None:
+        """``make`` makes the probe."""
+        self._make = make
+        self._probe: Probe | None = None
+        self.fault = ''
+        """Why nothing is observed; empty: it is."""
+
+    def begin(self, node: Node) -> None:
+        """Make the probe, and let it begin."""
+        with self._kept():
+            self._probe = self._make()
+            self._probe.begin(node)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether nothing more would be learnt by waiting."""
+        with self._kept():
+            return bool(self.fault) or self._probe is None or self._probe.is_done
+        return True
+
+    def observe(self) -> Any:
+        """Return the section; None: there is a fault."""
+        with self._kept():
+            return None if self.fault or self._probe is None else self._probe.observe()
+        return None
+
+    @contextmanager
+    def _kept(self) -> Iterator[None]:
+        try:
+            yield
+        except Exception as error:
+            self.fault = one_line(f'{type(error).__name__}: {error}')
+
+
 class Examination:
     """Observes a graph step by step, for a program that has other work meanwhile."""
 
     def __init__(self, node: Node, probes: Mapping[str, Callable[[], Probe]] = PROBES) -> None:
         """Begin all ``probes``; whoever has ``node`` spins it, and destroys it in the end."""
-        self._probes = {name: make() for name, make in probes.items()}
+        self._probes = {name: Guarded(make) for name, make in probes.items()}
         for each in self._probes.values():
             each.begin(node)
 
@@ -73,7 +113,7 @@ class Examination:
 
     def observe(self) -> Observations:
         """Return what was seen."""
-        return Observations(**{name: each.observe() for name, each in self._probes.items()})
+        return _observed(self._probes)
 
 
 def collect(
@@ -94,13 +134,16 @@ def collect(
         probes: by section.
         sections: what was observed otherwise, of the host.
     """
-    begun = {name: make() for name, make in probes.items()}
     with _what_is_made_goes(node):
-        for probe in begun.values():
-            probe.begin(node)
-        spin(lambda: all(probe.is_done for probe in begun.values()), window)
-        found = {name: probe.observe() for name, probe in begun.items()}
-    return Observations(**sections, **found)
+        examination = Examination(node, probes)
+        spin(lambda: examination.is_done, window)
+        return replace(examination.observe(), **sections)
+
+
+def _observed(probes: Mapping[str, Guarded]) -> Observations:
+    found = {name: each.observe() for name, each in probes.items()}
+    faults = {name: each.fault for name, each in probes.items() if each.fault}
+    return Observations(**found, faults=faults or None)
 
 
 @contextmanager
@@ -116,3 +159,4 @@ def _what_is_made_goes(node: Node) -> Iterator[None]:
             node.destroy_client(client)
         for timer in {*node.timers} - before:
             node.destroy_timer(timer)
+        forget(node)

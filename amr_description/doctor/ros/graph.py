@@ -217,7 +217,8 @@ class _Stat:
 
 def _stat(path: Path) -> _Stat | None:
     try:
-        fields = path.read_text().rpartition(')')[2].split()
+        # The name in parentheses is any bytes.
+        fields = path.read_bytes().rpartition(b')')[2].decode().split()
     except OSError:
         return None
     return _Stat(fields[0], (int(fields[11]) + int(fields[12])) / _TICKS)

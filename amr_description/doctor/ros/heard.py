@@ -21,6 +21,7 @@ from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.polled_topic import NeverCalled
 from amr_description.ros.publisher_gids import MessageOfPublisher, take_with_gid
+from amr_description.ros.rclpy_internals import RCLError
 
 CLOCK = '/clock'
 _TICKS = 200
@@ -55,9 +56,17 @@ class HeardTopic:
         self._names: dict[bytes, str] = {}
 
     def take(self) -> Iterator[tuple[Any, int, bytes]]:
-        """Yield what has come since: a message, when it came (system time, ns), its publisher."""
+        """
+        Yield what has come since: a message, when it came (system time, ns), its publisher.
+
+        What cannot be read, as of another definition of the type, is left out.
+        """
         for taken in self.take_bytes():
-            yield deserialize_message(taken.data, self._type), taken.received, taken.gid
+            try:
+                message = deserialize_message(taken.data, self._type)
+            except (RCLError, RuntimeError, ValueError):
+                continue
+            yield message, taken.received, taken.gid
 
     def take_bytes(self) -> Iterator[MessageOfPublisher]:
         """Yield what has come since, as bytes."""

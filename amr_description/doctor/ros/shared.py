@@ -143,3 +143,8 @@ def shared_of(node: Node) -> Shared:
     shared = _SHARED.setdefault(node, Shared(node))
     shared.take()
     return shared
+
+
+def forget(node: Node) -> None:
+    """Forget what the probes of a node shared, if one of them failed before it released that."""
+    _SHARED.pop(node, None)

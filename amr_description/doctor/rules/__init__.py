@@ -18,6 +18,7 @@ The rules, a module for each family. Each has its functions in ``RULES``, root c
 ``controllers.py``   controller managers, controllers, hardware
 ``sensors.py``       scans, pictures, odometry
 ``navigation.py``    what Nav2 and slam_toolbox demand
+``unexamined.py``    what could not be observed, or not be judged
 ``wording.py``       nodes, types and times in the text of findings
 ===================  =============================================================================
 """

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the doctor sees of a graph without a robot: time, silent nodes, what it leaves behind."""
 
+from functools import partial
+
 from fixtures.cli.commands import running_node
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
@@ -21,7 +23,9 @@ from amr_description.doctor.ros import (
     graph as graph_probe,
 )
 from amr_description.doctor.ros.clock import ClockProbe, stamp_in
+from amr_description.doctor.ros.collector import collect
 from amr_description.doctor.ros.commands import drive_of
+from amr_description.doctor.ros.shared import shared_of
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.service_calls import wait_until
 
@@ -75,6 +79,46 @@ def test_it_leaves_nothing_behind(graph):
         )
         graph.findings()
         assert (len([*doctor.subscriptions]), len([*doctor.clients])) == before
+
+
+class Broken:
+    """A probe that raises in one of its calls."""
+
+    def __init__(self, where):
+        self.where = where
+
+    def begin(self, node):
+        self._fails('begin')
+        shared_of(node)
+
+    @property
+    def is_done(self):
+        self._fails('is_done')
+        return True
+
+    def observe(self):
+        self._fails('observe')
+
+    def _fails(self, where):
+        if where == self.where:
+            raise ValueError(f'in {where}')
+
+
+@pytest.mark.parametrize('where', ['begin', 'is_done', 'observe'])
+def test_a_probe_that_raises_takes_no_other_with_it(graph, where):
+    seen = collect(
+        graph.doctor,
+        lambda until, timeout: wait_until(graph.doctor, lambda: until() or None, timeout=timeout),
+        probes={'sensors': partial(Broken, where), **GRAPH},
+    )
+    assert seen.faults == {'sensors': f'ValueError: in {where}'}
+    assert seen.sensors is None
+    assert seen.graph is not None
+    shared = shared_of(graph.doctor)
+    shared.release()
+    again = shared_of(graph.doctor)
+    again.release()
+    assert again is not shared  # nobody is counted who has failed before it released it
 
 
 def test_the_stamp_of_serialized_messages():

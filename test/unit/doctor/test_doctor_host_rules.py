@@ -16,6 +16,8 @@ from support.doctor_hosts import (
     SIMULATOR,
 )
 
+from amr_description.doctor.host import read_host
+from amr_description.doctor.host.machine import read_machine
 from amr_description.doctor.observations.graph import Graph, GraphNode
 from amr_description.doctor.observations.machine import Disk
 from amr_description.doctor.observations.processes import SharedMemory
@@ -239,3 +241,29 @@ def test_unobserved_sections_are_left_out():
     seen = replace(host(), machine=MACHINE, environment=None, processes=None)
     assert found(seen) == []
     assert [*domain(seen)] == []
+
+
+def test_folders_that_cannot_be_looked_at_end_no_doctor(tmp_path, monkeypatch):
+    gone = tmp_path / 'gone'
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    too_long = 'x' * 5000
+    variables = {
+        'ROS_LOG_DIR': f'/{too_long}',
+        'AMENT_PREFIX_PATH': f'/{too_long}',
+        'ROS_SECURITY_ENABLE': 'true',
+        'ROS_SECURITY_STRATEGY': 'Enforce',
+        'ROS_SECURITY_KEYSTORE': f'/{too_long}',
+        'ROS_DOMAIN_ID': '9' * 5000,
+    }
+    seen = read_host(variables)
+    assert 'the current folder' not in {each.purpose for each in seen['machine'].disks}
+    assert seen['processes'].domain == 0
+    monkeypatch.chdir('/')
+
+
+def test_a_user_without_a_home_has_no_log_folder(monkeypatch):
+    monkeypatch.setattr('os.path.expanduser', lambda path: path)
+    disks = read_machine({}).disks
+    assert [each.purpose for each in disks] == ['the current folder', 'shared memory']

@@ -42,3 +42,25 @@ def test_errors_stand_first_then_the_order_of_the_table(monkeypatch):
     monkeypatch.setattr(table, 'RULES', (first, second))
     found = [finding.what for finding in table.examine(Observations())]
     assert found == ['d', 'g', 'a', 'j']
+
+
+def test_a_rule_that_raises_takes_no_other_with_it(monkeypatch):
+    def broken(_seen):
+        yield error('broken', 'seen before it broke', 'b', 'c')
+        raise ZeroDivisionError('of a hostile\x1b message')
+
+    def sound(_seen):
+        return [warning('sound', 'seen', 'b', 'c')]
+
+    monkeypatch.setattr(table, 'RULES', (broken, sound))
+    found = {finding.rule: finding.what for finding in table.examine(Observations())}
+    assert [*found] == ['broken', 'sound', 'unexamined']
+    assert found['unexamined'] == (
+        'the rule broken could not be examined: ZeroDivisionError: of a hostile\\x1b message'
+    )
+
+
+def test_what_could_not_be_observed_is_said():
+    (finding,) = table.examine(Observations(faults={'sensors': 'ValueError: x'}))
+    assert (finding.rule, finding.severity) == ('unexamined', 'warning')
+    assert finding.what == 'sensors could not be examined: ValueError: x'
