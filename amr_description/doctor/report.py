@@ -47,7 +47,9 @@ def as_dict(finding: Finding) -> dict[str, str]:
     return {**asdict(finding), 'link': link(finding)}
 
 
-def as_json(findings: Sequence[Finding], *, checks: int, failed: int) -> str:
+def as_json(
+    findings: Sequence[Finding], *, checks: int, failed: int, not_observed: str = ''
+) -> str:
     """
     Return all findings for programs.
 
@@ -55,11 +57,13 @@ def as_json(findings: Sequence[Finding], *, checks: int, failed: int) -> str:
         findings: errors first.
         checks: how many rules there are.
         failed: how many of them failed.
+        not_observed: why the graph was not; empty: it was.
     """
     text = {
-        'passed': not failed,
+        'passed': not (failed or not_observed),
         'checks': checks,
         'failed': failed,
+        'not_observed': not_observed,
         'findings': [as_dict(each) for each in findings],
     }
     return json.dumps(text, indent=2, ensure_ascii=False)

@@ -355,6 +355,15 @@ def test_the_simulator_loads_what_sensors_measure_with_only_for_them():
     assert [name for name in names if re.fullmatch(heavy, name)] == []
 
 
+def test_the_doctor_loads_arrays_only_where_there_are_scans():
+    """They are half of its start; ``loads`` sees deferred ones, too."""
+    code = 'import amr_description.cli.doctor.examination, sys; print(*sys.modules)'
+    loaded = subprocess.run([sys.executable, '-c', code], check=True, stdout=subprocess.PIPE)
+    names = loaded.stdout.decode().split()
+    assert 'amr_description.doctor.rules.sensors' in names
+    assert 'numpy' not in names
+
+
 def loads(modules: list[str], heavy: re.Pattern[str]) -> list[str]:
     """Return the imports of ``heavy`` by these modules, and by what importing them imports."""
     arrows: dict[str, set[str]] = {}

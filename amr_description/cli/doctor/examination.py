@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import importlib
 import json
 import re
+import sys
 import time
 
 from amr_description import colors
@@ -40,6 +41,10 @@ class Examination:
         wanted = {Severity.ERROR, *([Severity.WARNING] if with_warnings else [])}
         return [finding for finding in self.findings if finding.severity in wanted]
 
+    def exit_code(self, failed: Sequence[Finding]) -> int:
+        """Return 1 if a check failed, or could not be made, as the graph was not observed."""
+        return int(bool(failed or self.unseen))
+
 
 def examine_and_print(args: Namespace) -> int:
     """Examine once; return the exit code."""
@@ -49,11 +54,15 @@ def examine_and_print(args: Namespace) -> int:
     families = list(dict.fromkeys(family(finding.rule) for finding in failed))
     if args.report:
         print_reports(found.seen, packages=not args.exclude_packages)
-        return int(bool(failed))
+        return found.exit_code(failed)
     rules = len({finding.rule for finding in failed})
     if args.json:
-        print(report.as_json(found.findings, checks=len(RULES), failed=rules))
-        return int(bool(failed or found.unseen))
+        print(
+            report.as_json(
+                found.findings, checks=len(RULES), failed=rules, not_observed=found.unseen
+            )
+        )
+        return found.exit_code(failed)
     for line in report.overview(found.seen, found.unseen):
         print(line)
     print()
@@ -62,11 +71,13 @@ def examine_and_print(args: Namespace) -> int:
     if failed:
         print(f'{rules}/{len(RULES)} check(s) failed\n')
         print('Failed modules:', *families)
+    elif found.unseen:
+        print('The graph was not observed\n')
     else:
         print(f'All {len(RULES)} checks passed\n')
     if args.report_failed and failed:
         print_reports(found.seen, families, packages=not args.exclude_packages)
-    return int(bool(failed or found.unseen))
+    return found.exit_code(failed)
 
 
 def watch(args: Namespace) -> int:
@@ -101,12 +112,13 @@ def _print_change(new: Sequence[Finding], gone: Sequence[Finding], *, as_json: b
         return
     now = time.strftime('%H:%M:%S')
     if not (new or gone):
-        print(f'[{now}] {report.summary(new)}', flush=True)
+        print(f'[{now}] {report.summary(new)}')
     for finding in gone:
         print(f'[{now}] {colors.colored("gone", colors.GREEN)}: {one_line(finding.what)}')
     for finding in new:
         print(f'[{now}] new:')
         _print_finding(finding)
+    sys.stdout.flush()
 
 
 def _print_finding(finding: Finding) -> None:

@@ -8,6 +8,7 @@ import platform
 import re
 
 from amr_description.doctor.observations import Observations
+from amr_description.doctor.rules.qos import Fault, faults
 
 type Items = list[tuple[str, object]]
 
@@ -119,8 +120,6 @@ def _processes(seen: Observations) -> Iterator[tuple[str, object]]:
 
 
 def _qos(seen: Observations) -> Iterator[tuple[str, object]]:
-    from amr_description.doctor.rules.qos import faults
-
     found = False
     for topic in seen.graph.topics if seen.graph else ():
         for publisher in topic.publishers:
@@ -130,9 +129,13 @@ def _qos(seen: Observations) -> Iterator[tuple[str, object]]:
                 yield 'topic [type]', f'{topic.name} [{publisher.type_name}]'
                 yield 'publisher node', publisher.node
                 yield 'subscriber node', subscription.node
-                yield 'compatibility status', '; '.join(map(str, wrong)) or 'OK'
+                yield 'compatibility status', '; '.join(map(_incompatible, wrong)) or 'OK'
     if not found:
         yield 'compatibility status', 'No publisher/subscriber pairs found'
+
+
+def _incompatible(fault: Fault) -> str:
+    return f'ERROR: {fault.policy}: {fault.offered} is offered, {fault.requested} requested'
 
 
 def _topics(seen: Observations) -> Iterator[tuple[str, object]]:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from amr_description.doctor.findings import Finding, Rule, warning
 from amr_description.doctor.observations import Observations
 from amr_description.navigation.contract.findings import Verdict
-from amr_description.navigation.contract.rules import examine, RULES as CONTRACT
 
 _OTHERS = ('clock.', 'time.', 'cmd_vel.', 'drive.', 'tf.one_parent', 'scan.length')
 """Demands that other families of rules hold for all robots, or that take driving."""
@@ -17,6 +16,8 @@ def navigation_contract(seen: Observations) -> Iterator[Finding]:
     """Topics, frames, rates and stamps are as ``check_navigation`` asks."""
     if seen.navigation is None:
         return
+    from amr_description.navigation.contract.rules import examine, RULES as CONTRACT  # with numpy
+
     rules = [each for each in CONTRACT if not each.name.startswith(_OTHERS)]
     for each in examine(seen.navigation, rules):
         if each.verdict is Verdict.FAILED:

@@ -12,7 +12,6 @@ from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.sensors import Image, Joints, Scan, Travel
 from amr_description.doctor.observations.transforms import Tree
 from amr_description.navigation.contract.observations import ScanGeometry
-from amr_description.navigation.contract.scan_length import expected_length
 from amr_description.text import closest_match
 
 _BYTES = {
@@ -102,7 +101,11 @@ def sensor_stamp(seen: Observations) -> Iterator[Finding]:
 
 def scan_length(seen: Observations) -> Iterator[Finding]:
     """A scan has as many ranges as its angles say."""
-    for each in _scans(seen):
+    if not (scans := _scans(seen)):
+        return
+    from amr_description.navigation.contract.scan_length import expected_length  # with numpy
+
+    for each in scans:
         geometry = ScanGeometry(
             each.angle_min, each.angle_max, each.angle_increment, 0.0, 0.0, each.count
         )

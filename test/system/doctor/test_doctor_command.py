@@ -7,12 +7,14 @@ import os
 import signal
 
 from fixtures.cli.commands import ros2, started
+import pytest
 from support.doc_pages import Page
 from support.page_lines import typed
 
-from amr_description.cli.doctor import examination
+from amr_description.cli.doctor import examination, graph
 from amr_description.cli.main import main
 from amr_description.doctor.table import RULES
+from amr_description.errors import AmrError
 
 PAGE = Page('doctor.md')
 
@@ -45,6 +47,22 @@ def test_an_rclpy_that_cannot_be_imported_is_named_first(monkeypatch, capsys):
     assert lines[4].split(maxsplit=1)[1] == f'not observed: rclpy cannot be imported: {fault}'
     assert lines[6].startswith('ERROR: rclpy cannot be imported by ')
     assert 'Failed modules: machine' in lines
+
+
+@pytest.mark.parametrize('option', ['--json', '--report', '--include-warnings'])
+def test_a_graph_that_cannot_be_observed_passes_no_check(monkeypatch, capsys, option):
+    def none():
+        raise AmrError('no node can be made: no memory')
+
+    monkeypatch.setattr(graph, 'sessions', none)
+    monkeypatch.setattr(examination, 'examine', lambda _seen: [])
+    assert main('ros2', ['doctor', option, '--exclude-packages']) == 1
+    said = capsys.readouterr().out
+    assert ' checks passed' not in said
+    if option == '--json':
+        found = json.loads(said)
+        assert (found['passed'], found['failed']) == (False, 0)
+        assert found['not_observed'] == 'no node can be made: no memory'
 
 
 def test_warnings_fail_only_where_they_are_included():

@@ -50,7 +50,8 @@ def test_reports_have_columns(capsys):
     assert f'topic [type]            : /topic [{STRING}]' in lines
     assert 'subscriber node         : /listener' in lines
     assert 'publisher count     : 1' in lines
-    assert 'compatibility status    : OK' not in lines
+    status = 'compatibility status    : '
+    assert f'{status}ERROR: reliability: BEST_EFFORT is offered, RELIABLE requested' in lines
 
 
 def test_a_finding_is_four_lines_and_names_its_section():
