@@ -181,6 +181,16 @@ def test_every_line_is_typed():
     ] == []
 
 
+def test_commands_in_the_sentences_of_the_front_page_are_those_of_other_pages():
+    """Where they are typed."""
+    sentences = re.sub(r'^(```.*?```$|\|.*?$)', '', Page(FRONT).text, flags=re.M | re.S)
+    named = r'`(ros2 doctor|(?:ros2 (?:bag|launch|run)|python -m pytest) [^`]+)`'
+    found = re.findall(named, sentences)
+    others = {line for name in NAMES if name != FRONT for _, line in commands(Page(name))}
+    assert [line for line in found if line not in others] == []
+    assert len(found) == 6
+
+
 def test_what_is_not_typed_has_a_reason():
     typed = set().union(*map(typed_lines, NAMES))
     for (name, begin), reason in ELSEWHERE.items():
