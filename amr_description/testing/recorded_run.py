@@ -10,6 +10,7 @@ a reset the simulator begins a new file, so each file but maybe the first one is
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from hashlib import blake2b
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -28,6 +29,11 @@ from amr_description.ros.message_types import message_type
 _CLOCK_PERIOD = 10_000_000
 """ns: the simulator has a cycle at each multiple of it, and at each tick of its managers."""
 _ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
+_OF_THREADS = {
+    f'sensor_msgs/msg/{name}'
+    for name in ('CameraInfo', 'Image', 'LaserScan', 'PointCloud2', 'Range')
+}
+"""Types of what sensors measure in a thread, where it takes long."""
 _NOT_OF_THE_DRIVE = {_ACTIVITY, 'lifecycle_msgs/msg/TransitionEvent'}
 _HINT = (
     "reset the simulation while it records ('ros2 service call /mujoco_sim/reset_simulation "
@@ -54,7 +60,9 @@ class RecordedRun:
     instants: tuple[Instant, ...]
     """The last one is when controllers last ticked."""
     messages: Mapping[str, Sequence[tuple[int, bytes]]]
-    """All that tells of the drive: topic → time, ns, and bytes of each message."""
+    """All that tells of the drive: topic → time, ns, and :func:`digest` of each message."""
+    delayed: frozenset[str] = frozenset()
+    """Topics that have messages later in real time, or not all."""
 
     @property
     def seconds(self) -> float:
@@ -65,6 +73,11 @@ class RecordedRun:
     def commands(self) -> int:
         """How many there are."""
         return sum(len(instant.commands) for instant in self.instants)
+
+
+def digest(data: bytes) -> bytes:
+    """Return what tells a message from others: a bag may have more than fits into memory."""
+    return blake2b(data, digest_size=16).digest()
 
 
 class Difference(NamedTuple):
@@ -95,7 +108,7 @@ def differences(first: RecordedRun, second: RecordedRun) -> list[Difference]:
     found = []
     for topic in sorted({*first.messages, *second.messages}):
         one, other = first.messages.get(topic, ()), second.messages.get(topic, ())
-        if one and _delay(topic, one, other):
+        if one and topic in first.delayed and _delay(topic, one, other):
             continue
         shorter, longer = sorted((one, other), key=len)
         unlike = [index for index, each in enumerate(shorter) if each != longer[index]]
@@ -109,12 +122,12 @@ def delays(first: RecordedRun, second: RecordedRun) -> list[Delay]:
     """
     Return the topics whose messages are the same, but which the first has later, or not all.
 
-    In real time cameras measure in a thread, and leave pictures out for which there is no time, as
-    does a recording on a slow disk. In the second run time has to have waited for both.
+    In real time cameras and lidars measure in a thread, and leave out for which there is no time.
+    In the second run time has to have waited for them. Nothing else is delayed.
     """
     found = []
-    for topic, one in sorted(first.messages.items()):
-        delay = _delay(topic, one, second.messages.get(topic, ()))
+    for topic in sorted(first.delayed & first.messages.keys()):
+        delay = _delay(topic, first.messages[topic], second.messages.get(topic, ()))
         if delay is not None and (delay.late or delay.left_out):
             found.append(delay)
     return found
@@ -141,19 +154,41 @@ def read_run(path: Path) -> RecordedRun:
     """
     with BagReader(path) as reader:
         files = reader.file_paths
-    with BagReader(files[-1]) as reader:
+    file = files[-1]
+    with BagReader(file) as reader:
         types = {name: topic.type for name, topic in reader.topics.items()}
-        messages = list(reader.messages())
-    if run_description.TOPIC not in types:
-        raise BagError(
-            f'{path} is not recorded by the simulator: {run_description.TOPIC} is not in it; '
-            "record by the parameter 'record' of mujoco_sim"
-        )
-    return _run_of(files[-1], types, messages)
+        if run_description.TOPIC not in types:
+            raise BagError(
+                f'{path} is not recorded by the simulator: {run_description.TOPIC} is not in it; '
+                "record by the parameter 'record' of mujoco_sim"
+            )
+        telling = {name for name, kind in types.items() if kind == _ACTIVITY}
+        head = list(reader.messages({run_description.TOPIC, '/clock', *telling}))
+        clock = [each.log_time for each in head if each.topic == '/clock']
+        description = _description(file, types, clock, head)
+        left_out = {topic for topic, kind in types.items() if kind in _NOT_OF_THE_DRIVE}
+        left_out.add(run_description.TOPIC)
+        told: dict[str, list[tuple[int, bytes]]] = {}
+        commands: dict[int, list[tuple[str, Any]]] = {}
+        for each in reader.messages():
+            if each.topic in description.commands:
+                message = _decoded(each, message_type(types[each.topic]), file)
+                commands.setdefault(each.log_time, []).append((each.topic, message))
+            if each.topic not in left_out:
+                told.setdefault(each.topic, []).append((each.log_time, digest(each.data)))
+    return RecordedRun(
+        description,
+        _active(file, types, head),
+        _instants(clock, commands),
+        told,
+        frozenset(topic for topic, kind in types.items() if kind in _OF_THREADS),
+    )
 
 
-def _run_of(file: Path, types: Mapping[str, str], messages: Sequence[BagMessage]) -> RecordedRun:
-    clock = [each.log_time for each in messages if each.topic == '/clock']
+def _description(
+    file: Path, types: Mapping[str, str], clock: Sequence[int], messages: Sequence[BagMessage]
+) -> RunDescription:
+    """Return what a run consists of. Raises BagError: it cannot be run again."""
     if not clock:
         raise BagError(f'{file}: no time has passed in it, or /clock was not recorded')
     if clock[0]:
@@ -174,18 +209,7 @@ def _run_of(file: Path, types: Mapping[str, str], messages: Sequence[BagMessage]
     description = run_description.from_text(_decoded(texts[-1], String, file).data)
     if not description.robots:
         raise BagError(f'{file}: there is no robot in it')
-    left_out = {topic for topic, kind in types.items() if kind in _NOT_OF_THE_DRIVE}
-    left_out.add(run_description.TOPIC)
-    told: dict[str, list[tuple[int, bytes]]] = {}
-    for each in messages:
-        if each.topic not in left_out:
-            told.setdefault(each.topic, []).append((each.log_time, each.data))
-    return RecordedRun(
-        description,
-        _active(file, types, messages),
-        _instants(description, types, clock, messages, file),
-        told,
-    )
+    return description
 
 
 def _decoded(message: BagMessage, kind: type, file: Path) -> Any:
@@ -214,17 +238,8 @@ def _active(
 
 
 def _instants(
-    description: RunDescription,
-    types: Mapping[str, str],
-    clock: Sequence[int],
-    messages: Sequence[BagMessage],
-    file: Path,
+    clock: Sequence[int], commands: Mapping[int, Sequence[tuple[str, Any]]]
 ) -> tuple[Instant, ...]:
-    commands: dict[int, list[tuple[str, Any]]] = {}
-    for each in messages:
-        if each.topic in description.commands:
-            message = _decoded(each, message_type(types[each.topic]), file)
-            commands.setdefault(each.log_time, []).append((each.topic, message))
     # Where a step has ended between two cycles there was one more.
     usual = Counter(b - a for a, b in pairwise(clock)).most_common(1)
     period = usual[0][0] if usual and usual[0][0] else _CLOCK_PERIOD

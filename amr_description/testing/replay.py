@@ -76,12 +76,14 @@ def simulation_of(run: RecordedRun, folder: Path, **options: Any) -> Simulation:
     )
 
 
-def replay(bag: Path, output: Path | None = None, *, rtf: float = 0.0) -> tuple[list[str], bool]:
+def replay(
+    bag: Path | RecordedRun, output: Path | None = None, *, rtf: float = 0.0
+) -> tuple[list[str], bool]:
     """
     Drive a recorded run again.
 
     Args:
-        bag: A folder, or one of its files.
+        bag: A folder, or one of its files; or what was read of it.
         output: A folder to record to; None: what is published now is not kept.
         rtf: Real-time factor; 0: as fast as possible.
 
@@ -91,12 +93,12 @@ def replay(bag: Path, output: Path | None = None, *, rtf: float = 0.0) -> tuple[
     Raises:
         AmrError: It cannot be run again.
     """
-    run = read_run(bag)
+    run = bag if isinstance(bag, RecordedRun) else read_run(bag)
     with tempfile.TemporaryDirectory(prefix='amr-replay-') as name:
         folder = Path(name)
         made = output or folder / 'replay'
         with simulation_of(run, folder, rtf=rtf, record=made) as sim:
-            sim.replay(bag)
+            sim.replay(run)
         again = read_run(made)
     unlike = differences(run, again)
     lines = [
@@ -127,14 +129,15 @@ def main(args: Sequence[str] | None = None) -> int:
             raise BagError(f'--output {given.output}: it is there already; another name will do')
         run = read_run(given.bag)
         print(f'{given.bag}: {run.seconds:.9g} s, {run.commands} commands', flush=True)
-        lines, is_equal = replay(given.bag, given.output, rtf=given.rtf)
+        lines, is_equal = replay(run, given.output, rtf=given.rtf)
     except AmrError as error:
         print(f'replay: {error}', file=sys.stderr)
         return 1
     for line in lines:
         print(line)
     count = sum(map(len, run.messages.values()))
-    print(f'equal, byte for byte: {count} messages' if is_equal else 'NOT equal')
+    but = ' but for these' if lines else ''
+    print(f'equal, byte for byte{but}: {count} messages' if is_equal else 'NOT equal')
     return 0 if is_equal else 1
 
 

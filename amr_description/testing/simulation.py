@@ -55,7 +55,7 @@ from amr_description.testing import bags
 from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
-from amr_description.testing.recorded_run import read_run
+from amr_description.testing.recorded_run import read_run, RecordedRun
 from amr_description.testing.robot import (
     namespace_of,
     Robot,
@@ -435,7 +435,7 @@ class Simulation:
         """Complete the bag, if there is one; not that of ``--ros-bag``."""
         self.recording.end_own()
 
-    def replay(self, bag: str | Path) -> None:
+    def replay(self, bag: str | Path | RecordedRun) -> None:
         """
         Reset, and drive as recorded: each command of a bag at the simulated time of its record.
 
@@ -443,12 +443,13 @@ class Simulation:
         is, too. :func:`amr_description.testing.replay.simulation_of` makes such a simulation.
 
         Args:
-            bag: A recording of the simulator that begins at time 0; a folder or a file.
+            bag: A recording of the simulator that begins at time 0; a folder or a file, or what
+                :func:`~amr_description.testing.recorded_run.read_run` has read.
 
         Raises:
             BagError: It is none.
         """
-        run = read_run(Path(bag))
+        run = bag if isinstance(bag, RecordedRun) else read_run(Path(bag))
         self.reset()
         for instant in run.instants:
             self.step((instant.time - self._running.time) // self._running.timestep)

@@ -101,15 +101,18 @@ def test_every_message_of_a_run_is_there(bags):
 
 
 def test_all_links_have_transforms_as_they_truly_are(bags):
-    run = read_run(bags / 'first' / 'drive')
-    moving = [deserialize_message(data, TFMessage) for _, data in run.messages['/tf']]
-    (fixed,) = [deserialize_message(data, TFMessage) for _, data in run.messages['/tf_static']]
+    by_topic = {}
+    with BagReader(bags / 'first' / 'drive' / 'drive_1.mcap') as reader:
+        for each in reader.messages(['/tf', '/tf_static', '/joint_states']):
+            by_topic.setdefault(each.topic, []).append((each.log_time, each.data))
+    moving = [deserialize_message(data, TFMessage) for _, data in by_topic['/tf']]
+    (fixed,) = [deserialize_message(data, TFMessage) for _, data in by_topic['/tf_static']]
     frames = {each.child_frame_id for message in (*moving, fixed) for each in message.transforms}
     robot = load(URDF)
     assert frames == {link.name for link in robot.links}
     joint = robot.joint('joint_wheel_front_left')
-    states = dict(run.messages['/joint_states'])
-    for (time, _), message in zip(run.messages['/tf'], moving, strict=True):
+    states = dict(by_topic['/joint_states'])
+    for (time, _), message in zip(by_topic['/tf'], moving, strict=True):
         for each in message.transforms:
             if each.child_frame_id == joint.child:
                 state = deserialize_message(states[time], JointState)

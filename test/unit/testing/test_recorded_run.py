@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which bags can be run again, and what of them differs."""
 
+from contextlib import contextmanager
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from support.small_bags import string
@@ -12,7 +14,14 @@ from amr_description.bag.run_description import RunDescription, RunRobot, TOPIC,
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
 from amr_description.testing import replay
-from amr_description.testing.recorded_run import Delay, delays, Difference, differences, read_run
+from amr_description.testing.recorded_run import (
+    Delay,
+    delays,
+    Difference,
+    differences,
+    digest,
+    read_run,
+)
 
 MS = 10**6
 ROBOT = RunRobot('amr', '/', (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), '<robot name="amr"/>')
@@ -41,7 +50,7 @@ def test_the_last_part_is_run_and_stops_where_it_is_commanded(tmp_path):
         (20 * MS, []),
     ]
     assert (run.seconds, run.commands) == (0.02, 2)
-    assert run.messages['/heard'] == [(20 * MS, string('c'))]
+    assert run.messages['/heard'] == [(20 * MS, digest(string('c')))]
     assert TOPIC not in run.messages
 
 
@@ -100,9 +109,8 @@ def test_a_line_says_why_a_bag_is_not_run(tmp_path, capsys):
 def test_the_first_difference_of_each_topic_is_found(tmp_path):
     run = read_run(bag(tmp_path / 'bag', [*BEGIN, (10, '/heard', 'a'), (20, '/heard', 'b')]))
     assert differences(run, run) == []
-    other = replace(
-        run, messages={'/heard': [(10 * MS, string('a')), (20 * MS, string('c'))], '/clock': []}
-    )
+    heard = [(10 * MS, digest(string('a'))), (20 * MS, digest(string('c')))]
+    other = replace(run, messages={'/heard': heard, '/clock': []})
     assert differences(run, other) == [
         Difference('/clock', 0, 2, 2),
         Difference('/heard', 20 * MS, 1, 2),
@@ -110,12 +118,55 @@ def test_the_first_difference_of_each_topic_is_found(tmp_path):
     assert delays(run, other) == []
 
 
-def test_what_was_only_late_or_left_out_in_real_time_is_no_difference(tmp_path):
+def test_pictures_that_were_only_late_or_left_out_in_real_time_are_no_difference(tmp_path):
     run = read_run(bag(tmp_path / 'bag', [*BEGIN, (12, '/heard', 'a'), (30, '/heard', 'c')]))
-    waited = [(10 * MS, string('a')), (20 * MS, string('b')), (30 * MS, string('c'))]
+    waited = [
+        (time * MS, digest(string(text))) for time, text in ((10, 'a'), (20, 'b'), (30, 'c'))
+    ]
     again = replace(run, messages={**run.messages, '/heard': waited})
+    # What no thread measures has no reason to be late.
+    assert run.delayed == frozenset()
+    assert differences(run, again) == [Difference('/heard', 10 * MS, 3, 3)]
+    assert delays(run, again) == []
+    run, again = (replace(each, delayed=frozenset({'/heard', '/none'})) for each in (run, again))
     assert differences(run, again) == []
     assert delays(run, again) == [Delay('/heard', late=1, left_out=1)]
     # The other way round it is one: time has waited, and there is less.
     assert differences(again, run) == [Difference('/heard', 10 * MS, 3, 3)]
     assert delays(again, run) == []
+
+
+def test_topics_of_cameras_and_lidars_may_be_delayed(tmp_path):
+    with BagWriter(tmp_path / 'bag') as writer:
+        for name, kind in (('/image', 'Image'), ('/scan', 'LaserScan'), ('/imu', 'Imu')):
+            writer.add_topic(TopicMetadata(name, f'sensor_msgs/msg/{kind}'))
+        for time, name, text in BEGIN:
+            writer.add_topic(TopicMetadata(name, TYPE))
+            writer.write(BagMessage(name, string(text), time * MS, time * MS))
+        writer.write(BagMessage('/image', b'x' * 10**6, 0, 0))
+    run = read_run(tmp_path / 'bag')
+    assert run.delayed == {'/image', '/scan'}
+    ((_, kept),) = run.messages['/image']
+    assert len(kept) == 16, 'a bag of pictures may be larger than memory'
+
+
+def test_a_bag_is_read_once_and_what_was_delayed_is_said(tmp_path, monkeypatch, capsys):
+    taken, read = bag(tmp_path / 'bag', [*BEGIN, (10, '/heard', 'a')]), []
+
+    @contextmanager
+    def simulated(run, folder, rtf, record):
+        bag(record, [*BEGIN, (5, '/heard', 'a')])
+        yield SimpleNamespace(replay=lambda given: read.append(given is run))
+
+    def read_and_note(path):
+        read.append(path)
+        return replace(read_run(path), delayed=frozenset({'/heard'}))
+
+    monkeypatch.setattr(replay, 'read_run', read_and_note)
+    monkeypatch.setattr(replay, 'simulation_of', simulated)
+    assert replay.main([str(taken), '-o', str(tmp_path / 'again')]) == 0
+    assert read == [taken, True, tmp_path / 'again']
+    assert capsys.readouterr().out.splitlines()[1:] == [
+        '/heard: 1 messages were later in real time, 0 left out',
+        'equal, byte for byte but for these: 3 messages',
+    ]
