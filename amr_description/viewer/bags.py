@@ -115,15 +115,6 @@ class SeriesData:
     values: str  #: likewise; NaN: there is no such element
 
 
-@dataclass(frozen=True, slots=True)
-class OverviewData:
-    """What ``overview`` is answered."""
-
-    states: str  #: binary states one after the other, all of one length, in base64
-    count: int
-    layout: int  #: the id of their layout
-
-
 type BagRequest = Seek | Playback | ReadSeries | ReadOverview | StartRecording | StopRecording
 """What pages ask about bags."""
 BAG_REQUESTS = (Seek, Playback, ReadSeries, ReadOverview, StartRecording, StopRecording)

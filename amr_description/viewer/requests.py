@@ -23,6 +23,7 @@ from amr_description.viewer.bags import (
     StartRecording,
     StopRecording,
 )
+from amr_description.viewer.protocol import FrameInfo, RobotLayout
 
 _LARGEST_ID = 2**53  # up to here JavaScript's numbers are exact integers
 _SHOWN = 80  # characters of a value that an error quotes
@@ -359,6 +360,17 @@ class SetInitialPose:
     x: float  #: m
     y: float
     yaw: float  #: rad
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewData:
+    """What ``overview`` is answered; the layout is that of its states, not of the one shown."""
+
+    states: str  #: binary states one after the other, all of one length, in base64
+    count: int
+    layout: int  #: the id of their layout
+    frames: tuple[FrameInfo, ...]
+    robots: tuple[RobotLayout, ...]
 
 
 type SimulatorRequest = (

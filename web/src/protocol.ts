@@ -824,15 +824,6 @@ export interface SeriesData {
   values: string;
 }
 
-/** What `overview` is answered. */
-export interface OverviewData {
-  /** binary states one after the other, all of one length, in base64 */
-  states: string;
-  count: number;
-  /** the id of their layout */
-  layout: number;
-}
-
 /** What pages ask about bags. */
 export type BagRequest =
   | Seek
@@ -1146,6 +1137,17 @@ export interface SetInitialPose {
   y: number;
   /** rad */
   yaw: number;
+}
+
+/** What `overview` is answered; the layout is that of its states, not of the one shown. */
+export interface OverviewData {
+  /** binary states one after the other, all of one length, in base64 */
+  states: string;
+  count: number;
+  /** the id of their layout */
+  layout: number;
+  frames: FrameInfo[];
+  robots: RobotLayout[];
 }
 
 /** What a simulator is asked. */

@@ -39,16 +39,30 @@ async function answer(app: TestApp, type: string, known: Partial<Reply>): Promis
   await new Promise((resolve) => setTimeout(resolve));
 }
 
-test('the states of a whole recording come once their layout is known', async () => {
+const OVERVIEW = { states: statesOf([1, 2, 3]), count: 3, layout: LAYOUT.id, frames: [], robots: LAYOUT.robots };
+
+test('the states of a whole recording come once a layout is known, whichever it is', async () => {
   const app = connectedApp();
   const taken: (readonly State[])[] = [];
   new WholeRecording(app, (states) => taken.push(states));
   app.say(RECORDING);
-  await answer(app, 'overview', { data: { states: statesOf([1, 2, 3]), count: 3, layout: 3 } });
+  await answer(app, 'overview', { data: OVERVIEW });
   assert.equal(taken.length, 0);
-  app.say(LAYOUT);
-  app.say({ ...LAYOUT }); // said again to a page that comes later
+  const shown: Layout = { ...LAYOUT, id: 7, frames: [{ name: 'base_link', parent: 'odom' }] };
+  app.say(shown);
+  app.say({ ...shown }); // said again to a page that comes later
   assert.deepEqual(taken.map((states) => states.map(({ time }) => time)), [[1, 2, 3]]);
+});
+
+test('a page says why there is nothing of the whole recording', async () => {
+  const app = connectedApp();
+  new WholeRecording(app, () => assert.fail());
+  app.say(RECORDING);
+  await answer(app, 'overview', { ok: false, message: 'the bag cannot be read' });
+  assert.deepEqual(
+    app.store.notices.map(({ level, text }) => [level, text]),
+    [['error', 'No plots and trails of the whole recording: the bag cannot be read']],
+  );
 });
 
 test('a field of a recording comes whole, and is saved so', async () => {

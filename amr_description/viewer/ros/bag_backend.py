@@ -17,7 +17,6 @@ from amr_description.errors import ViewerError
 from amr_description.model.frames import Vector
 from amr_description.viewer.backend import Answer, Hold, Watched
 from amr_description.viewer.bags import (
-    OverviewData,
     Playback,
     Playhead,
     ReadOverview,
@@ -41,7 +40,7 @@ from amr_description.viewer.protocol import (
     ServerMessage,
     World,
 )
-from amr_description.viewer.requests import Definition, Part, Request
+from amr_description.viewer.requests import Definition, OverviewData, Part, Request
 from amr_description.viewer.ros.bag_samples import BagSamples, read_series
 from amr_description.viewer.ros.publications import fields_of_type
 from amr_description.viewer.ros.recorded import Recorded, RecordedRobot
@@ -58,6 +57,8 @@ _STILL_PERIOD = 0.25
 _TREE_PERIOD = 0.5
 _MOST_STATES = 3000
 """Of an overview."""
+_LARGEST = 16 * 1024 * 1024
+"""Bytes of all its states: well below what a page may be behind, see pages.py."""
 _FEWEST = 1 / 60
 """s between two states of an overview, at least."""
 _ONLY_A_RECORDING = 'this page shows a recording: nothing of it can be driven or changed'
@@ -363,12 +364,15 @@ def overview(recorded: Recorded) -> OverviewData:
     states = BagStates(recorded)
     states.layout(recorded.end)
     length = recorded.end - recorded.begin
-    count = max(2, min(_MOST_STATES, int(length / NANOSECONDS / _FEWEST) + 1))
+    wanted = int(length / NANOSECONDS / _FEWEST) + 1
+    room = _LARGEST // len(states.take(recorded.begin))
+    count = max(2, min(_MOST_STATES, wanted, room))
     frames = [
         states.take(recorded.begin + length * index // (count - 1)) for index in range(count)
     ]
     data = b64encode(b''.join(frames)).decode()
-    return OverviewData(data, count, states.present.id)
+    layout = states.present
+    return OverviewData(data, count, layout.id, layout.frames, layout.robots)
 
 
 def _info(robot: RecordedRobot) -> RobotInfo:

@@ -10,6 +10,7 @@ scans and all other topics stay in the files: of them the times of the messages 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 import math
+import threading
 
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
@@ -73,7 +74,10 @@ class RecordedFrames:
         self._parents: dict[str, Changes[str]] = {}
         self._topics: dict[str, str] = {}
         self._changes = Times()
-        self._order: dict[int, tuple[FrameInfo, ...]] = {}
+        self._versions: dict[int, int] = {}
+        """By the number of changes before: trees that are the same have one."""
+        self._trees: dict[tuple[FrameInfo, ...], int] = {}
+        self._lock = threading.Lock()  # of both
 
     def takes(self, topic: str) -> Take:
         """Return what takes the messages of a topic."""
@@ -112,14 +116,18 @@ class RecordedFrames:
 
     def version(self, time: int) -> int:
         """Return which of its trees it was at a time: they differ in who is whose parent."""
-        return self._changes.index(time) + 1
+        index = self._changes.index(time)
+        with self._lock:
+            if index not in self._versions:
+                tree = tuple(self._sorted(time))
+                self._versions[index] = self._trees.setdefault(tree, len(self._trees))
+            return self._versions[index]
 
     def tree(self, time: int) -> tuple[FrameInfo, ...]:
         """Return all frames of the bag, parents before children, without those in a loop."""
         version = self.version(time)
-        if version not in self._order:
-            self._order[version] = tuple(self._sorted(time))
-        return self._order[version]
+        with self._lock:
+            return next(tree for tree, each in self._trees.items() if each == version)
 
     def _sorted(self, time: int) -> Iterator[FrameInfo]:
         children: dict[str, list[str]] = {}

@@ -9,6 +9,7 @@ import json
 import struct
 
 from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from std_msgs.msg import String
 from support.drive_bag import LENGTH, pose_at, SPEED, URDF, write_drive
 from support.ros_processes import PATIENCE
 from support.small_bags import BEGIN, MS, topic, write_bag
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.bag.mcap_writer import BagWriter
@@ -36,7 +38,9 @@ from amr_description.viewer.bags import (
 )
 from amr_description.viewer.protocol import Graph, Layout, Model, World
 from amr_description.viewer.requests import Definition, ResetSimulation
+from amr_description.viewer.ros import bag_backend
 from amr_description.viewer.ros.bag_backend import BagBackend
+from amr_description.viewer.ros.recorded import RecordedFrames
 from amr_description.viewer.states import StateFrame
 
 HEAD = struct.Struct('<BBHId')
@@ -173,6 +177,26 @@ def test_an_overview_goes_from_the_first_to_the_last_time(backend):
     times = [HEAD.unpack_from(states, each * size)[-1] for each in (0, data.count - 1)]
     assert times == pytest.approx([BEGIN / 1e9, BEGIN / 1e9 + LENGTH])
     assert HEAD.unpack_from(states)[2] == data.layout
+    assert data.robots == tuple(each.layout() for each in backend.recorded.robots)
+    assert data.frames == backend.recorded.frames.tree(backend.recorded.end)
+
+
+def test_an_overview_of_many_robots_has_fewer_states(backend, monkeypatch):
+    monkeypatch.setattr(bag_backend, '_LARGEST', 10_000)
+    data = bag_backend.overview(backend.recorded)
+    assert 8_000 < len(b64decode(data.states)) <= 10_000
+
+
+def test_trees_that_are_the_same_have_one_layout():
+    frames = RecordedFrames()
+    take = frames.takes('/tf')
+    for time in range(100):
+        each = TransformStamped(child_frame_id='base_link')
+        each.header.frame_id = ('odom', 'map')[time % 2]
+        take(time, serialize_message(TFMessage(transforms=[each])))
+    assert {frames.version(time) for time in range(100)} == {0, 1}
+    parents = [frames.tree(time)[0].parent for time in (0, 1, 50, 99)]
+    assert parents == ['odom', 'map', 'odom', 'map']
 
 
 def test_it_plays_to_its_end_and_from_its_begin(backend):

@@ -3,7 +3,7 @@
 /** All of a recording at once: its states for plots and trails, and numbers of its messages. */
 import type { App } from '../app';
 import type { FieldFeed } from '../plots/following';
-import type { OverviewData, SeriesData } from '../protocol';
+import type { Layout, OverviewData, SeriesData } from '../protocol';
 import { decodeState, stateBytes, type State } from '../state';
 
 /** Has the states of the whole recording come, each time that another one is shown. */
@@ -26,21 +26,29 @@ export class WholeRecording {
   }
 
   private async ask(): Promise<void> {
-    const { ok, data } = await this.app.connection.request({ type: 'overview' });
+    const { store } = this.app;
+    const { recording } = store;
+    const { ok, message, data } = await this.app.connection.request({ type: 'overview' });
+    if (recording !== store.recording) {
+      return;
+    }
     if (ok) {
       this.overview = data as OverviewData;
       this.settle();
+    } else {
+      store.note('error', `No plots and trails of the whole recording: ${message}`);
     }
   }
 
-  /** Read them, as soon as their layout has come. */
+  /** Read them, as soon as robots are drawn, whatever the frames of the time that is shown. */
   private settle(): void {
     const { overview } = this;
-    const { layout } = this.app.store;
-    if (overview === null || layout === null || layout.id !== overview.layout) {
+    if (overview === null || this.app.store.layout === null) {
       return;
     }
     this.overview = null;
+    const { frames, robots } = overview;
+    const layout: Layout = { type: 'layout', id: overview.layout, frames, robots };
     const bytes = bytesOf(overview.states);
     const size = stateBytes(layout);
     const states: State[] = [];
