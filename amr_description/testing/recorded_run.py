@@ -31,7 +31,7 @@ _CLOCK_PERIOD = 10_000_000
 _ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 _OF_THREADS = {
     f'sensor_msgs/msg/{name}'
-    for name in ('CameraInfo', 'Image', 'LaserScan', 'PointCloud2', 'Range')
+    for name in ('CameraInfo', 'CompressedImage', 'Image', 'LaserScan', 'PointCloud2', 'Range')
 }
 """Types of what sensors measure in a thread, where it takes long."""
 _NOT_OF_THE_DRIVE = {_ACTIVITY, 'lifecycle_msgs/msg/TransitionEvent'}

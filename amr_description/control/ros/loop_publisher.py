@@ -292,6 +292,9 @@ class LoopPublisher:
                 each.attach(tape)
 
     def _add_taped(self, each: LoopTopic | TapedPublisher | TapedInput) -> None:
+        tape = self._tape
+        if tape is not None:
+            tape.prepare(each.type_name)  # before the lock, for which the control thread waits
         with self._changing_topics:
             self._taped = (*self._taped, each)
             each.attach(self._tape)

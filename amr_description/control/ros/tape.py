@@ -24,6 +24,9 @@ type Sink = Callable[[bytes], None]
 class Tape(Protocol):
     """Records; :meth:`set_time` and the cycles are called on the control thread."""
 
+    def prepare(self, name: str) -> None:
+        """Read what has to be known of a type of messages; the control thread has no time."""
+
     def set_time(self, time: int) -> None:
         """Give what follows a time, ns; it has jumped, where it is before the last one."""
 

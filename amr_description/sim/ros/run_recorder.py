@@ -4,9 +4,10 @@
 Records a run of the simulator, in its process, to a bag.
 
 Every message is written that this process publishes, but for those that depend on the wall clock
-(``/diagnostics``, the statistics, ``/rosout``), and the commands that controllers take. Its time
-is the simulated time at which it is published, that of a command the time of the update which acts
-on it. So equal runs have equal files, byte for byte, however they were stepped.
+(``/diagnostics``, the statistics, ``/rosout``) or on who calls (status and feedback of actions,
+events of services, ``/parameter_events``, ``~/received``), and the commands that controllers take.
+Its time is the simulated time at which it is published, that of a command the time of the update
+which acts on it. So equal runs have equal files, byte for byte, however they were stepped.
 
 Messages of cycles are recorded when controllers tick, not while time stands still.
 
@@ -134,6 +135,10 @@ class RunRecorder:
         self._is_closed = False
         self._adding = threading.Lock()
         self._writer = _WriterThread(BagWriter(folder), options.most_queued, log)
+
+    def prepare(self, name: str) -> None:
+        """Read the hash of a type of messages from its file, on a thread that has time."""
+        type_hash(name)
 
     # --- tape ---------------------------------------------------------------------------------
 

@@ -98,7 +98,6 @@ class RunRecording:
 
     def _make(self, folder: str, given: Mapping[str, Any]) -> 'RunRecorder':
         """``given``: parameters that have not been set yet."""
-        from amr_description.bag.type_hashes import type_hash
         from amr_description.sim.ros.run_recorder import RunOptions, RunRecorder
 
         only, without = (self._pattern(name, given) for name in _FILTERS)
@@ -114,7 +113,7 @@ class RunRecording:
         except BagError as error:
             raise SimulationError(f'{_PARAMETER}: {error}') from error
         for name in self._publisher.message_types:
-            type_hash(name)  # of a file, for which the control thread has no time
+            recorder.prepare(name)
         return recorder
 
     def _attach(self, recorder: 'RunRecorder') -> None:

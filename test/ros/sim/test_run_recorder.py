@@ -12,6 +12,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 from support.running_programs import PATIENCE
+from tf2_msgs.msg import TFMessage
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
@@ -178,6 +179,19 @@ def test_a_reset_after_which_no_time_passes_begins_no_file(host):
     host.now.publish(String(data='changed'))
     host.end()
     assert host.files() == [[(0, '/now', 'latched'), (10, '/said', 'a')]]
+
+
+def test_files_are_read_before_the_lock_that_the_control_thread_needs(host, monkeypatch):
+    recorder, prepared = host.record(), []
+
+    def prepare(name):
+        assert not host.loop_publisher._changing_topics.locked()
+        prepared.append(name)
+
+    monkeypatch.setattr(recorder, 'prepare', prepare)
+    host.loop_publisher.taped(host.node.create_publisher(TFMessage, 'later', 1))
+    assert prepared == ['tf2_msgs/msg/TFMessage']
+    host.end()
 
 
 def test_a_picture_is_published_when_the_recording_ends_meanwhile(host):

@@ -18,6 +18,7 @@ from amr_description.bag.run_description import from_text, RunDescription, TOPIC
 from amr_description.control.contracts import Severity
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.errors import BagError
+from amr_description.sim.ros.run_recorder import RunRecorder
 from amr_description.sim.ros.run_recording import RunRecording
 from amr_description.sim.ros.simulation import Simulation
 
@@ -106,6 +107,22 @@ def test_a_recording_that_broke_off_is_refused_its_end_once(host, tmp_path, monk
     assert reason == f'record: {tmp_path / "bag"} is not complete: No space left on device'
     assert not [text for _, text in host.lines if text.startswith('Recorded')]
     assert host.set('record', '') is None
+
+
+def test_the_control_thread_has_no_file_to_read_when_it_begins(host, tmp_path, monkeypatch):
+    prepared, described = [], []
+    monkeypatch.setattr(RunRecorder, 'prepare', lambda _, name: prepared.append(name))
+
+    def attach(call):
+        assert 'rosgraph_msgs/msg/Clock' in prepared
+        described.append(host.describe)
+        monkeypatch.setattr(host.recording, '_describe', None)
+        call()
+        monkeypatch.setattr(host.recording, '_describe', host.describe)
+
+    monkeypatch.setattr(host.recording, '_on_loop', attach)
+    assert host.set('record', tmp_path / 'bag') is None
+    assert described
 
 
 def test_filters_of_the_same_request_count(host, tmp_path):

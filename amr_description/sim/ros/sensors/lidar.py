@@ -6,7 +6,8 @@ The topics of a lidar or range finder: LaserScan, PointCloud2, Range.
 One of a few rays measures on the control thread: 0.15 ms for 360 rays, so that its scan goes out
 in the cycle of its instant. One of many, or whose rays take long as the world has fine meshes,
 measures on the thread of the :class:`~amr_description.sim.ros.sensors.worker.SensorWorker`. Either
-way its bits are the same.
+way its bits are the same. Where time waits, only the number of rays counts, so that the order of
+messages does not depend on how fast the machine is.
 """
 
 from collections.abc import Callable
@@ -38,7 +39,7 @@ MOST_RAYS = 1500
 
 Those that would exceed it, such as the fifth of a fleet, measure on the other thread."""
 LONGEST = 0.001
-"""s of processor time of one measurement; one that has taken longer does so from then on."""
+"""s of processor time of one measurement; in real time a slower lidar leaves the thread."""
 
 
 class LidarTopics(SensorTopics):
@@ -57,7 +58,8 @@ class LidarTopics(SensorTopics):
         """
         self._context = context
         self._rays = lidar.horizontal.samples * lidar.vertical.samples
-        self._takes_long = self._rays > MOST_RAYS
+        self._has_many_rays = self._rays > MOST_RAYS
+        self._is_slow = False
         self._task = context.worker.task(
             f"lidar '{lidar.mount.name}' of '{context.robot.name}'",
             'a lower <update_rate> or fewer <samples> would do',
@@ -87,9 +89,11 @@ class LidarTopics(SensorTopics):
     def measure(self, time: int) -> None:
         """Measure, and publish; ``time``: of this cycle, ns."""
         context, lidar = self._context, self._lidar
-        if not (self._takes_long or context.ray_budget.take(time, self._rays)):
-            self._takes_long = True  # for good: each thread would find out anew what it sees
-        if self._takes_long:
+        is_aside = self._has_many_rays or (self._is_slow and context.worker.is_paced())
+        if not (is_aside or context.ray_budget.take(time, self._rays)):
+            # For good: each thread would find out anew what it sees.
+            is_aside = self._has_many_rays = True
+        if is_aside:
             state = context.states.copy()
             self._task.request(partial(self._make, time, lidar.body(), state))
             return
@@ -99,7 +103,7 @@ class LidarTopics(SensorTopics):
         scan = lidar.measure(time, lidar.body(), scene)
         for topic in self._topics:
             topic.send(scan)
-        self._takes_long = is_usual and wall.thread_time() - begin > LONGEST
+        self._is_slow = is_usual and wall.thread_time() - begin > LONGEST
 
     def _make(self, time: int, body: int, state: StateCopy) -> None:
         """Measure from a copy, and publish; on the thread of the worker."""
