@@ -130,7 +130,8 @@ def contending_commands(seen: Observations) -> Iterator[Finding]:
             _overlap(one, other) for i, one in enumerate(active) for other in active[i + 1 :]
         ):
             continue
-        if all(not any(_values(each)) for series in active[1:] for each in series):
+        driving = [series for series in active if any(any(_values(each)) for each in series)]
+        if len(driving) < 2:
             continue  # the others hold it at rest, as the page's STOP does
         drives = listed([drive.node for drive in _drives(seen, topic)])
         yield Finding(

@@ -15,8 +15,8 @@ from amr_description.text import did_you_mean
 
 STATE_BROADCASTER = 'joint_state_broadcaster/JointStateBroadcaster'
 DRIVE = 'diff_drive_controller/DiffDriveController'
-_FORMER = (': it is of ', 'taken as', 'no effect')
-"""What the log says of parameters of earlier releases."""
+_FORMER = ': it is of '
+"""In what the log says of a parameter of an earlier release."""
 _SHOWN = 3
 
 
@@ -184,7 +184,7 @@ def former_parameters(seen: Observations) -> Iterator[Finding]:
     if seen.controllers is None:
         return
     for line in seen.controllers.log:
-        if line.text.startswith('parameter') and all(each in line.text for each in _FORMER[:1]):
+        if line.text.startswith('parameter') and _FORMER in line.text:
             yield warning(
                 'former_parameters',
                 f'{line.node}: {line.text}',

@@ -11,6 +11,7 @@ from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.sensors import Image, Joints, Scan, Travel
 from amr_description.doctor.observations.transforms import Tree
+from amr_description.doctor.rules.wording import right_clock
 from amr_description.navigation.contract.observations import ScanGeometry
 from amr_description.text import closest_match
 
@@ -45,6 +46,8 @@ _LEAST_TURN = 0.5
 """rad, of the same."""
 _SHARE = 0.25
 """Of a way or a turn, that odometry may be wrong by."""
+_NO_SIZE = (0, 0)
+"""Of a camera_info without a calibration."""
 _SHOWN = 4
 
 
@@ -92,10 +95,10 @@ def sensor_stamp(seen: Observations) -> Iterator[Finding]:
             f'{"old" if each.age > 0 else "of the future"} when they come',
             'no transform is known at such a time: "earlier than all the data in the transform '
             'cache", or "extrapolation into the future"',
-            f'ros2 param set {who} use_sim_time true, or restart it with -p use_sim_time:=true'
+            '; '.join(f'ros2 param set {name} use_sim_time true' for name in each.publishers[:2])
+            + ', or restart it with -p use_sim_time:=true'
             if is_simulated
-            else 'stamp with the time of the measurement; synchronize the clocks of the machines: '
-            'sudo chronyc makestep',
+            else f'stamp with the time of the measurement; {right_clock(each.publishers)}',
         )
 
 
@@ -162,7 +165,7 @@ def image_layout(seen: Observations) -> Iterator[Finding]:
                 'cv_bridge and viewers refuse them, or show them askew',
                 f'set step = {pixel} * width in {who}, or the encoding that the data has',
             )
-        elif each.size != each.step * each.height:
+        elif pixel is not None and each.size != each.step * each.height:
             yield error(
                 'image_layout',
                 f'pictures on {each.topic}, of {who}, have {each.size} bytes instead of '
@@ -183,9 +186,9 @@ def camera_info(seen: Observations) -> Iterator[Finding]:
     """A camera publishes its camera_info, of the size of its pictures."""
     for each in _images(seen):
         who = _names(each.publishers)
-        if each.info_size is None:
-            continue
-        if each.info_size != (each.width, each.height):
+        if each.info_size is None or {*each.publishers}.isdisjoint(each.info_publishers):
+            continue  # the pictures of another node beside the camera's, as with marks in them
+        if each.info_size not in ((each.width, each.height), _NO_SIZE):
             yield error(
                 'camera_info',
                 f'pictures on {each.topic} have {each.width} x {each.height} pixels, and '
@@ -195,7 +198,7 @@ def camera_info(seen: Observations) -> Iterator[Finding]:
                 f'calibrate at the size that is published, or set the size of {who} to '
                 f'{each.info_size[0]} x {each.info_size[1]}',
             )
-        elif not each.focal_length:
+        elif not each.focal_length or each.info_size == _NO_SIZE:
             yield warning(
                 'camera_info',
                 f'{each.info_topic}, of {_names(each.info_publishers)}, is not calibrated: the '
@@ -212,7 +215,7 @@ def imu_orientation(seen: Observations) -> Iterator[Finding]:
         length = math.hypot(*each.orientation)
         who = _names(each.publishers)
         if each.has_orientation and not abs(length - 1.0) < 0.05:
-            yield error(
+            yield warning(
                 'imu_orientation',
                 f'the orientation on {each.topic}, of {who}, is a quaternion of length '
                 f'{length:.3g}',

@@ -20,6 +20,8 @@ _LONG_NAME = 6
 """Characters: in words as long as this, two may differ; in shorter ones, one."""
 _SHORTEST_NAME = 3
 _MOST_TOPICS = 300
+_OPPOSITES = ({'local', 'global'}, {'min', 'max'})
+"""First words of names, by few letters apart, that mean two things."""
 
 
 def misnamed_topics(seen: Observations) -> Iterator[Finding]:
@@ -53,6 +55,8 @@ def is_near(one: str, other: str) -> bool:
     if len(differing) != 1:
         return False
     word, written = differing[0]
+    if {word.partition('_')[0], written.partition('_')[0]} in _OPPOSITES:
+        return False
     if re.sub(r'\d', '', word) == re.sub(r'\d', '', written):
         return False
     shorter = min(len(word), len(written))

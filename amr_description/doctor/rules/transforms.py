@@ -10,6 +10,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.transforms import Edge, Tree
+from amr_description.doctor.rules.wording import right_clock
 from amr_description.model.robot import Joint
 from amr_description.text import closest_match
 
@@ -193,12 +194,12 @@ def joints_without_state(seen: Observations) -> Iterator[Finding]:
             if _needs_state(joint)
             and joint.name not in known
             and joint.child not in tree.frames
-            and not any(frame.endswith(f'/{joint.child}') for frame in tree.frames)
+            # frame_prefix may end with a slash, or not.
+            and not any(frame.endswith(joint.child) for frame in tree.frames)
         ]
         if missing:
-            yield _without_state(
-                missing, sorted({each.topic for each in sources}), topic.namespace
-            )
+            topics = sorted({each.topic for each in sources})
+            yield _without_state(seen, missing, topics, topic.namespace)
 
 
 RULES: tuple[Rule, ...] = (
@@ -214,11 +215,24 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def _without_state(missing: list[Joint], topics: list[str], namespace: str) -> Finding:
+def _without_state(
+    seen: Observations, missing: list[Joint], topics: list[str], namespace: str
+) -> Finding:
     names = _shortened(each.name for each in missing)
     number = f'the joint{"s" if len(missing) > 1 else ""} {names}'
     where = ' and '.join(topics)
     inside = f' --ros-args -r __ns:={namespace}' if namespace else ''
+    managers = seen.controllers.managers if seen.controllers else ()
+    manager = next((each.name for each in managers if each.namespace == namespace), '')
+    if topics:  # joint_state_publisher would make up states of the other joints, too
+        fix = (
+            'give each a <state_interface name="position"/> in <ros2_control>, which the '
+            'joint_state_broadcaster publishes, or type="fixed" where nothing measures it'
+        )
+    elif manager:
+        fix = f'ros2 run controller_manager spawner joint_state_broadcaster -c {manager}'
+    else:
+        fix = f'ros2 run joint_state_publisher joint_state_publisher{inside}'
     return warning(
         'joints_without_state',
         f'nobody publishes {number} on {where}'
@@ -226,9 +240,7 @@ def _without_state(missing: list[Joint], topics: list[str], namespace: str) -> F
         else f'nobody publishes joint states, and the robot has {number}',
         'robot_state_publisher cannot place the links below them: '
         + _shortened(each.child for each in missing),
-        f'ros2 run joint_state_publisher joint_state_publisher{inside}'
-        if topics
-        else f'ros2 run controller_manager spawner joint_state_broadcaster{inside}',
+        fix,
     )
 
 
@@ -323,7 +335,7 @@ def _for_other_clock(publisher: str, *, is_simulated: bool) -> str:
     if is_simulated:
         node = publisher or 'NODE'
         return f'ros2 param set {node} use_sim_time true, or restart it with -p use_sim_time:=true'
-    return 'synchronize the clocks of the machines: sudo chronyc makestep'
+    return right_clock([publisher])
 
 
 def _publishers(edges: Iterable[Edge]) -> str:

@@ -9,6 +9,7 @@ from amr_description.doctor.observations.graph import Endpoint
 
 _SHOWN = 4
 _PROGRAM = '_ros2cli'
+_PLAYER = 'rosbag2_player'
 
 
 def names_of(endpoints: Iterable[Endpoint]) -> str:
@@ -37,3 +38,16 @@ def short_type(name: str, other: str) -> str:
 def seconds(time: float) -> str:
     """Return a time, ns, as text."""
     return f'{time / NANOSECONDS:.3g} s'
+
+
+def right_clock(publishers: Iterable[str]) -> str:
+    """Return what mends stamps that are not of the system clock, where nobody simulates time."""
+    if any(_PLAYER in each for each in publishers):
+        return (
+            'play the bag with --clock 100, and start what hears it with -p use_sim_time:=true: '
+            'its stamps are of the time when it was recorded'
+        )
+    return (
+        'see which machine is wrong (timedatectl on each), and synchronize its clock while the '
+        'robot stands: sudo chronyc makestep'
+    )

@@ -89,6 +89,16 @@ FAULTS = {
         '/lidar stamps /scan 3.6e+03 s behind of the system clock here',
         'chronyc makestep',
     ),
+    'stamps_of_another_clock of a bag of long ago': (
+        {
+            'clock': clock(
+                publishers=(), ticks=(), stamps=(replace(LATE, publishers=('/rosbag2_player',)),)
+            ),
+            'graph': REAL,
+        },
+        '/rosbag2_player stamps /scan 3.6e+03 s behind of the system clock here',
+        'play the bag with --clock 100, and start what hears it with -p use_sim_time:=true',
+    ),
     'stamps_of_another_clock of a bag': (
         {
             'clock': clock(publishers=(), ticks=(), stamps=(replace(stamp(), time=None),)),
@@ -145,6 +155,16 @@ HEALTHY = {
             topic('/clock', [end('/mujoco_sim', CLOCK)], [end('/viewer', CLOCK)]),
             topic('/odom', [end(DRIVE, ODOM)], [end('/viewer', ODOM)]),
             nodes=[*NODES, node('/viewer', use_sim_time=False)],
+        )
+    },
+    'bridges and recorders, which pass on stamps as they are': {
+        'graph': graph(
+            topic('/odom', [end('/ros_gz_bridge_2', ODOM)], [end('/rosbag2_recorder', ODOM)]),
+            nodes=[
+                *NODES,
+                node('/ros_gz_bridge_2', use_sim_time=False),
+                node('/rosbag2_recorder', use_sim_time=False),
+            ],
         )
     },
     'as fast as possible': {'clock': clock(ticks=ticks(factor=9.0), sources=(source(0.0),))},

@@ -115,6 +115,11 @@ HEALTHY = {
         *each_100_ms(3), *(command(1000 + i * 100, publisher='/teleop') for i in range(3))
     ),
     'one that holds the robot at rest': commands(*HELD, publishers=BOTH),
+    'one that holds the robot at rest, and was heard first': commands(
+        *(replace(each, received=each.received + 2000 * MS) for each in HELD[1::2]),
+        *(replace(each, received=each.received + 2000 * MS) for each in HELD[::2]),
+        publishers=BOTH,
+    ),
     'a peak above the limit': commands(*each_100_ms(9), command(900, linear=(1.5, 0.0))),
     'a drive without limits': commands(*each_100_ms(linear=(9.0, 0.0)), limits=()),
 }

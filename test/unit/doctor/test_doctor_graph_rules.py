@@ -212,6 +212,7 @@ def test_distance(one, other, letters):
         ('/a/scan', '/b/scan', False),
         ('/cmd_vel', '/cmd_vel_nav', False),
         ('/a/scna', '/b/scan', False),
+        ('/local_costmap/costmap', '/global_costmap/costmap', False),
     ],
 )
 def test_names_that_are_near(one, other, expected):

@@ -26,8 +26,10 @@ from support.doctor_robots import (
     with_sensors,
 )
 
+from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.controllers import Controller, Controllers
 from amr_description.doctor.observations.description import Description, DescriptionTopic
+from amr_description.doctor.observations.sensors import Sensors
 from amr_description.doctor.observations.transforms import Edge, Transforms, Tree
 from amr_description.doctor.table import examine
 from amr_description.navigation.contract.observations import Observations as Navigation, Topic
@@ -44,6 +46,13 @@ def edge(parent, child, publisher=OTHER, **fields):
 
 def inactive(name, *commands, kind='forward_command_controller/ForwardCommandController'):
     return Controller(name=name, type_name=kind, state='inactive', commands=commands)
+
+
+def prefixed(prefix):
+    return tuple(
+        replace(each, parent=prefix + each.parent, child=prefix + each.child)
+        for each in robots.EDGES
+    )
 
 
 FAULTS = {
@@ -148,6 +157,16 @@ HEALTHY = {
             replace(JOINTS, names=JOINTS.names[2:], positions=2, publisher='/other'),
         )
     ),
+    'wheels with a frame_prefix that ends without a slash': replace(
+        with_sensors(joints=(), scans=(), images=(), imus=()),
+        transforms=Transforms(trees=(Tree(edges=prefixed('r1_')),)),
+    ),
+    'pictures of another node beside the camera': with_sensors(
+        images=(IMAGE, replace(IMAGE, width=64, step=192, size=46080, publishers=('/marks',)))
+    ),
+    'pictures in planes': with_sensors(
+        images=(replace(IMAGE, encoding='nv12', step=320, size=320 * 240 * 3 // 2),)
+    ),
     'a robot that hardly moves': with_sensors(
         travels=(replace(TRAVEL, distance=0.2, true_distance=0.0, turn=0.1, true_turn=0.0),)
     ),
@@ -226,6 +245,37 @@ def test_a_frame_of_gazebo_is_told_with_that_of_the_description():
 def test_numbers_that_are_none_are_no_rotation():
     bad = edge('base_link', 'camera', rotation=(math.nan, 0.0, 0.0, 1.0))
     assert first(with_edges(bad)).rule == 'tf_no_rotation'
+
+
+def without_states(**sections):
+    seen = with_edges(without=[f'wheel_{side}' for side in robots.SIDES])
+    return replace(seen, sensors=with_sensors(joints=()).sensors, **sections)
+
+
+def test_what_mends_joints_without_state_makes_up_none_of_a_robot_that_has_some():
+    assert 'joint_state_publisher' not in first(FAULTS['joints_without_state']).fix
+    fix = first(without_states()).fix
+    assert fix.endswith('spawner joint_state_broadcaster -c /controller_manager')
+    fix = first(without_states(controllers=None)).fix
+    assert fix == 'ros2 run joint_state_publisher joint_state_publisher'
+
+
+def test_stamps_of_a_bag_set_no_clock_of_a_machine():
+    old = replace(SCAN, age=10**15, publishers=('/rosbag2_player',))
+    transforms = Transforms(
+        trees=(Tree(edges=(edge('laser', 'x', '/rosbag2_player', youngest=10**15),)),)
+    )
+    found = examine(Observations(sensors=Sensors(scans=(old,)), transforms=transforms))
+    assert [each.rule for each in found] == ['tf_stale', 'sensor_stamp']
+    for each in found:
+        assert 'play the bag with --clock 100' in each.fix
+        assert 'chronyc' not in each.fix
+
+
+def test_a_camera_without_calibration_is_a_warning_whatever_size_it_says():
+    (found,) = examine(with_sensors(images=(replace(IMAGE, info_size=(0, 0)),)))
+    assert (found.rule, found.severity) == ('camera_info', 'warning')
+    assert 'is not calibrated' in found.what
 
 
 def test_a_finalized_component_is_not_to_be_activated():
