@@ -134,7 +134,7 @@ def collect(
         probes: by section.
         sections: what was observed otherwise, of the host.
     """
-    with _what_is_made_goes(node):
+    with what_is_made_goes(node):
         examination = Examination(node, probes)
         spin(lambda: examination.is_done, window)
         return replace(examination.observe(), **sections)
@@ -147,7 +147,7 @@ def _observed(probes: Mapping[str, Guarded]) -> Observations:
 
 
 @contextmanager
-def _what_is_made_goes(node: Node) -> Iterator[None]:
+def what_is_made_goes(node: Node) -> Iterator[None]:
     """Destroy the subscriptions, clients and timers that the block makes: a page looks again."""
     before = {*node.subscriptions, *node.clients, *node.timers}
     try:

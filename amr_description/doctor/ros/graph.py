@@ -19,10 +19,17 @@ from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, Reliabilit
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.doctor.observations.graph import Endpoint, Graph, GraphNode, Qos, Topic
-from amr_description.doctor.ros.shared import GET_PARAMETERS, Question, Shared, shared_of
+from amr_description.doctor.ros.shared import (
+    CLOCK_TOPIC,
+    GET_PARAMETERS,
+    Question,
+    Shared,
+    shared_of,
+)
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.local_participants import processes_of
 from amr_description.ros.node_lists import PREFIX
+from amr_description.ros.rclpy_internals import NodeNameNonExistentError
 
 PATIENCE = 2.0
 """s that a node has to answer, by the system clock."""
@@ -41,6 +48,20 @@ _INFINITE = 2**62
 _IDLE_SHARE = 0.05
 """Of a core: a process that takes less, and does not wait for a core, does nothing."""
 _HIDDEN = '_'
+_ACTION = '/_action/'
+_CLIENTS = '_rclcpp_node'
+_STANDARD = (
+    'describe_parameters',
+    'get_logger_levels',
+    'get_parameter_types',
+    'get_parameters',
+    'get_type_description',
+    'list_parameters',
+    'set_logger_levels',
+    'set_parameters',
+    'set_parameters_atomically',
+)
+"""Services of every node."""
 _NAMELESS = 'a node without a name'
 _TICKS = os.sysconf('SC_CLK_TCK')
 
@@ -120,18 +141,20 @@ class GraphProbe:
             host=host,
             process=pid,
             is_stopped='T' in state,
-            is_silent=self._is_silent(question, pid, state),
+            is_silent=self._is_silent(name, question, pid, state),
             use_sim_time=value if isinstance(value, bool) else None,
         )
 
-    def _is_silent(self, question: Question | None, pid: int | None, state: set[str]) -> bool:
+    def _is_silent(
+        self, name: str, question: Question | None, pid: int | None, state: set[str]
+    ) -> bool:
         if question is None or question.values is not None or question.asked is None:
             return False
         waited = time.monotonic() - question.asked
         if waited < PATIENCE or question.looks < _FEWEST_LOOKS:
             return False
-        if pid is None:
-            return True
+        if pid is None or not serves(self._node, name):
+            return False  # of another host it is not known whether it is only busy
         # One that is busy, or waits for a core, will answer.
         is_waiting = state & {'R', 'D'}
         worked = _work_of(pid) - self._work.get(pid, 0.0)
@@ -175,6 +198,27 @@ class GraphProbe:
                     )
                 )
         return tuple(ends)
+
+
+def serves(node: Node, name: str) -> bool:
+    """
+    Return whether a node of the graph has callbacks of its own: services, or subscriptions.
+
+    Many scripts only publish, and are never spun; Nav2's ``bt_navigator`` spins the nodes of its
+    clients only while it navigates.
+    """
+    namespace, _, last = name.rpartition('/')
+    if last.endswith(_CLIENTS):
+        return False
+    try:
+        services = node.get_service_names_and_types_by_node(last, namespace or '/')
+        topics = node.get_subscriber_names_and_types_by_node(last, namespace or '/')
+    except NodeNameNonExistentError:
+        return False
+    if {each for each, _ in services} - {f'{name}/{each}' for each in _STANDARD}:
+        return True
+    heard = {each for each, _ in topics} - {_PARAMETER_EVENTS, CLOCK_TOPIC}
+    return any(_ACTION not in each for each in heard)
 
 
 def qos_of(profile: QoSProfile) -> Qos:

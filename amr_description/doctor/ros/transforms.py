@@ -19,8 +19,8 @@ from amr_description.ros.messages import nanoseconds
 _TYPE = 'tf2_msgs/msg/TFMessage'
 _MOVING, _STATIC = '/tf', '/tf_static'
 _STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_LEAST = 1.0
-"""s that is listened; transforms that come more seldom are not waited for."""
+_LEAST, _MOST = 1.0, 2.3
+"""s that is listened; longer, where nothing has come of a publisher: some send once a second."""
 
 
 class TransformsProbe:
@@ -48,6 +48,8 @@ class TransformsProbe:
         """Whether what is published often has come; of two trees, what may connect them."""
         self._take()
         if time.monotonic() - self._began < _LEAST or not self._time.is_known:
+            return False
+        if time.monotonic() - self._began < _MOST and not self._has_heard_all():
             return False
         children = {(key[0], key[2]) for key in self._seen}
         roots = {(space, parent) for space, parent, *_ in self._seen} - children
@@ -89,6 +91,13 @@ class TransformsProbe:
                 for namespace, edges in sorted(trees.items())
             ),
             is_simulated=self._time.is_simulated,
+        )
+
+    def _has_heard_all(self) -> bool:
+        """Return whether something has come of each who publishes transforms."""
+        heard = {(namespace, is_static, gid) for namespace, *_, is_static, gid in self._seen}
+        return all(
+            (*key, gid) in heard for key, each in self._heard.items() for gid in each.publishers()
         )
 
     def _has_all_static(self, namespace: str) -> bool:

@@ -21,11 +21,14 @@ from amr_description.doctor.ros import (
     clock as clock_probe,
     commands as command_probe,
     graph as graph_probe,
+    transforms as transforms_probe,
 )
 from amr_description.doctor.ros.clock import ClockProbe, stamp_in
-from amr_description.doctor.ros.collector import collect
+from amr_description.doctor.ros.collector import collect, what_is_made_goes
 from amr_description.doctor.ros.commands import drive_of
+from amr_description.doctor.ros.graph import serves
 from amr_description.doctor.ros.shared import shared_of
+from amr_description.doctor.ros.transforms import TransformsProbe
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.service_calls import wait_until
 
@@ -79,6 +82,42 @@ def test_it_leaves_nothing_behind(graph):
         )
         graph.findings()
         assert (len([*doctor.subscriptions]), len([*doctor.clients])) == before
+
+
+def test_a_node_that_serves_nobody_may_be_silent(graph):
+    with graph.intruder('only_publishes') as one, graph.intruder('hears') as other:
+        one.create_publisher(Odometry, '/odom', 10)
+        other.create_subscription(Odometry, '/odom', print, 10)
+        assert wait_until(
+            graph.doctor, lambda: serves(graph.doctor, '/hears') or None, timeout=PATIENCE
+        )
+        assert not serves(graph.doctor, '/only_publishes')
+        assert not serves(graph.doctor, '/nobody')
+    with graph.intruder('bt_navigator_navigate_to_pose_rclcpp_node') as node:
+        node.create_subscription(Odometry, '/odom', print, 10)
+        assert wait_until(
+            graph.doctor, lambda: graph.doctor.count_subscribers('/odom') or None, timeout=PATIENCE
+        )
+        assert not serves(graph.doctor, '/bt_navigator_navigate_to_pose_rclcpp_node')
+
+
+def test_transforms_that_come_seldom_are_waited_for(graph, monkeypatch):
+    monkeypatch.setattr(transforms_probe, '_LEAST', 0.0)
+    monkeypatch.setattr(transforms_probe, '_MOST', PATIENCE)
+    with graph.intruder('slow', use_sim_time=False) as node:
+        publisher = node.create_publisher(TFMessage, '/tf', 10)
+        doctor = graph.doctor
+        assert wait_until(doctor, lambda: doctor.count_publishers('/tf') or None, timeout=PATIENCE)
+        probe = TransformsProbe()
+        with what_is_made_goes(doctor):
+            probe.begin(doctor)
+            assert wait_until(
+                doctor, lambda: publisher.get_subscription_count() or None, timeout=PATIENCE
+            )
+            assert not probe.is_done
+            every(node, 0.05, publisher, lambda: transforms(TWO, ('odom', 'base')))
+            assert wait_until(doctor, lambda: probe.is_done or None, timeout=PATIENCE)
+            assert probe.observe().trees[0].frames == {'odom', 'base'}
 
 
 class Broken:
