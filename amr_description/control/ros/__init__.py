@@ -11,7 +11,7 @@ of each controller that subscribes to something takes its messages.
 ``loop_thread.py``             the control thread, its queue of calls, and the LoopContext
 ``loop_watchdog.py``           logs when the loop stands, and in which call
 ``pacing.py``                  when the next cycle is due: by wall, system or received clock
-``tape.py``                    hands what is published, and the commands, to who records it
+``message_recorder.py``        hands what is published, and the commands, to who records it
 ``loop_publisher.py``          publishes ``/clock`` and what controllers send, after each cycle
 ``realtime.py``                time slice, priority, cores and memory of the control thread
 

@@ -47,7 +47,12 @@ from rosgraph_msgs.msg import Clock
 from amr_description.control.contracts import Input
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import Encoder, encoder_of
-from amr_description.control.ros.tape import Sink, Tape, TapedInput, TapedPublisher
+from amr_description.control.ros.message_recorder import (
+    MessageRecorder,
+    RecordedInput,
+    RecordedPublisher,
+    Sink,
+)
 from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.message_types import type_name
 from amr_description.ros.messages import fill_stamp
@@ -141,9 +146,9 @@ class LoopTopic:
         is_heard = self.publisher.get_subscription_count() > 0
         self.is_heard = is_heard or self._keeps_many or self.sink is not None
 
-    def attach(self, tape: Tape | None) -> None:
+    def attach(self, recorder: MessageRecorder | None) -> None:
         """Record from now on, what is latched first; None: no more, as the next look finds."""
-        sink = self.sink = None if tape is None else tape.samples_of(self.publisher)
+        sink = self.sink = None if recorder is None else recorder.samples_of(self.publisher)
         self.is_heard = self.is_heard or sink is not None
         if sink is not None and self._latest is not _NOTHING:
             made = self._encode(self._latest)
@@ -194,8 +199,8 @@ class LoopPublisher:
         self._outbox: list[tuple[LoopTopic, Any]] = []
         self._topics: tuple[LoopTopic, ...] = ()
         self._changing_topics = threading.Lock()
-        self._tape: Tape | None = None
-        self._taped: tuple[LoopTopic | TapedPublisher | TapedInput, ...] = ()
+        self._recorder: MessageRecorder | None = None
+        self._recorded: tuple[LoopTopic | RecordedPublisher | RecordedInput, ...] = ()
         self._wall_clock, self._look_period = clock, look_period
         self._next_look = 0
         """ns of the wall clock."""
@@ -233,80 +238,82 @@ class LoopPublisher:
     def acknowledge(self, topic: str, number: int) -> None:
         """A controller accepted a publisher's message ``number``, from 1; on any thread."""
 
-    def topic(self, publisher: Publisher, encode: Encoder, *, is_taped: bool = True) -> LoopTopic:
+    def topic(
+        self, publisher: Publisher, encode: Encoder, *, is_recorded: bool = True
+    ) -> LoopTopic:
         """
         Take in a topic, until its publisher is destroyed.
 
         Args:
             publisher: Of the topic.
             encode: Called for each sample that somebody hears.
-            is_taped: Whether it is recorded; not so what depends on the wall clock.
+            is_recorded: Whether it is recorded; not so what depends on the wall clock.
         """
         topic = LoopTopic(publisher, encode, self._outbox)
         with self._changing_topics:
             self._topics = (*self._topics, topic)
-        if is_taped:
-            self._add_taped(topic)
+        if is_recorded:
+            self._add_recorded(topic)
         self._next_look = 0
         return topic
 
     # --- recording ----------------------------------------------------------------------------
 
-    def taped(self, publisher: Publisher) -> TapedPublisher:
+    def recorded(self, publisher: Publisher) -> RecordedPublisher:
         """Return what publishes at once, and is recorded, until the publisher is destroyed."""
-        taped = TapedPublisher(publisher, is_latched=_is_latched(publisher))
-        self._add_taped(taped)
-        return taped
+        recorded = RecordedPublisher(publisher, is_latched=_is_latched(publisher))
+        self._add_recorded(recorded)
+        return recorded
 
     def input(self, port: Input[Any], subscription: Subscription) -> None:
         """Have the commands of an input recorded, until :meth:`forget`."""
-        self._add_taped(TapedInput(port, subscription))
+        self._add_recorded(RecordedInput(port, subscription))
 
     def forget(self, ports: Sequence[Input[Any]], publishers: Sequence[Publisher] = ()) -> None:
         """Record nothing of these inputs and publishers, which are destroyed."""
 
-        def is_gone(each: LoopTopic | TapedPublisher | TapedInput) -> bool:
-            if isinstance(each, TapedInput):
+        def is_gone(each: LoopTopic | RecordedPublisher | RecordedInput) -> bool:
+            if isinstance(each, RecordedInput):
                 return any(each.port is port for port in ports)
             return any(each.publisher is publisher for publisher in publishers)
 
         with self._changing_topics:
-            self._taped = tuple(each for each in self._taped if not is_gone(each))
-            if self._tape is not None:
+            self._recorded = tuple(each for each in self._recorded if not is_gone(each))
+            if self._recorder is not None:
                 for publisher in publishers:
-                    self._tape.forget(publisher)
+                    self._recorder.forget(publisher)
 
     @property
     def message_types(self) -> set[str]:
         """Names of the types of what is recorded now."""
-        return {each.type_name for each in self._taped}
+        return {each.type_name for each in self._recorded}
 
-    def set_tape(self, tape: Tape | None) -> None:
-        """Record with a tape from now on; None: no more. On the control thread."""
+    def set_recorder(self, recorder: MessageRecorder | None) -> None:
+        """Record with a recorder from now on; None: no more. On the control thread."""
         with self._changing_topics:
-            self._tape = tape
-            for each in self._taped:
+            self._recorder = recorder
+            for each in self._recorded:
                 if isinstance(each, LoopTopic) and each.newest is not _NOTHING:
                     self._write(each, each.newest)  # it was sent before the recording began
                     each.newest = _NOTHING
-                each.attach(tape)
+                each.attach(recorder)
 
-    def _add_taped(self, each: LoopTopic | TapedPublisher | TapedInput) -> None:
-        tape = self._tape
-        if tape is not None:
-            tape.prepare(each.type_name)  # before the lock, for which the control thread waits
+    def _add_recorded(self, each: LoopTopic | RecordedPublisher | RecordedInput) -> None:
+        recorder = self._recorder
+        if recorder is not None:
+            recorder.prepare(each.type_name)  # before the lock, for which the control thread waits
         with self._changing_topics:
-            self._taped = (*self._taped, each)
-            each.attach(self._tape)
+            self._recorded = (*self._recorded, each)
+            each.attach(self._recorder)
 
     def set_clocks(self, time: int) -> None:
         """Set the clock of every node in this process to ``time``, ns."""
 
     def publish(self, time: int) -> None:
         """Publish what was sent since the last call; ``time``: of this cycle, ns."""
-        tape = self._tape
-        if tape is not None:
-            tape.begin_cycle(time)
+        recorder = self._recorder
+        if recorder is not None:
+            recorder.begin_cycle(time)
         is_looking = self._must_look(time)
         if is_looking:
             self._look()
@@ -325,8 +332,8 @@ class LoopPublisher:
                     topic.newest = _NOTHING
         if self.followers:
             self.follow()
-        if tape is not None:
-            tape.end_cycle()
+        if recorder is not None:
+            recorder.end_cycle()
 
     def follow(self) -> None:
         """Have done what waits for the end of a cycle, such as pictures that time waits for."""
@@ -360,7 +367,7 @@ class LoopPublisher:
         if gone:
             with self._changing_topics:
                 self._topics = tuple(topic for topic in self._topics if topic not in gone)
-                self._taped = tuple(each for each in self._taped if each not in gone)
+                self._recorded = tuple(each for each in self._recorded if each not in gone)
 
     def _write(self, topic: LoopTopic, sample: Any) -> None:
         try:
@@ -409,8 +416,8 @@ class ClockedLoopPublisher(LoopPublisher):
     def set_clocks(self, time: int) -> None:
         """Set the clock of every node in this process to ``time``, ns."""
         self._clock.set_ros_time_override(Time(nanoseconds=time, clock_type=ClockType.ROS_TIME))
-        if self._tape is not None:
-            self._tape.set_time(time)
+        if self._recorder is not None:
+            self._recorder.set_time(time)
 
     def publish(self, time: int) -> None:
         """Publish ``/clock``, and then what was sent."""

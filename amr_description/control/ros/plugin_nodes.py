@@ -300,7 +300,7 @@ class TransitionEvents:
     def __init__(self, node: Node, loop_publisher: LoopPublisher) -> None:
         self._clock = node.get_clock()
         self._context = node.context
-        self._publisher = loop_publisher.taped(
+        self._publisher = loop_publisher.recorded(
             node.create_publisher(TransitionEvent, '~/transition_event', QoSProfile(depth=10))
         )
 

@@ -116,7 +116,7 @@ class ActivityTopic:
 
     def __init__(self, node: Node, loop_publisher: LoopPublisher) -> None:
         self._clock = node.get_clock()
-        self._publisher = loop_publisher.taped(
+        self._publisher = loop_publisher.recorded(
             node.create_publisher(ControllerManagerActivity, '~/activity', LATCHED)
         )
         self._last: ControllerManagerActivity | None = None
@@ -172,12 +172,12 @@ class RegistryTopics:
         self._full = node.create_publisher(Statistics, f'{name}/full', _QUEUED)
         self._values = node.create_publisher(StatisticsValues, f'{name}/values', _QUEUED)
         self._send_full = loop_publisher.topic(
-            self._full, filling(self._fill_full, Statistics()), is_taped=False
+            self._full, filling(self._fill_full, Statistics()), is_recorded=False
         ).send
         self._send_values = loop_publisher.topic(
             self._values,
             TemplateEncoder(VALUES, fill_values, StatisticsValues),
-            is_taped=False,
+            is_recorded=False,
         ).send
         self._full_names: tuple[str, ...] = ()
         self._wants_full = self._wants_values = False

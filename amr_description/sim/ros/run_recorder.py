@@ -41,7 +41,7 @@ from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.type_hashes import type_hash
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.ros.tape import Sink
+from amr_description.control.ros.message_recorder import Sink
 from amr_description.errors import BagError
 from amr_description.ros.message_types import type_name
 from amr_description.streams import print_traceback
@@ -91,7 +91,7 @@ type _Item = BagMessage | _Latched | TopicMetadata | _Jump
 
 
 class RunRecorder:
-    """The ``Tape`` of the loop's publisher; made and closed on the ROS thread."""
+    """The ``MessageRecorder`` of the loop's publisher; made and closed on the ROS thread."""
 
     def __init__(
         self,
@@ -140,7 +140,7 @@ class RunRecorder:
         """Read the hash of a type of messages from its file, on a thread that has time."""
         type_hash(name)
 
-    # --- tape ---------------------------------------------------------------------------------
+    # --- messages -----------------------------------------------------------------------------
 
     def set_time(self, time: int) -> None:
         """Give what follows a time, ns; if it has jumped back, the next tick begins a file."""

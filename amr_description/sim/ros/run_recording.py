@@ -124,7 +124,7 @@ class RunRecording:
         def attach() -> None:
             recorder.set_time(self._time())
             self.on_begin()
-            self._publisher.set_tape(recorder)
+            self._publisher.set_recorder(recorder)
             recorder.on_failure = self._stop
             recorder.on_commands = self._add_run
             self._latch(recorder, texts)
@@ -192,7 +192,7 @@ class RunRecording:
 
     def _stop(self) -> None:
         """Hand nothing to the recorder any more; on the control thread."""
-        self._publisher.set_tape(None)
+        self._publisher.set_recorder(None)
         if self._report in self._publisher.reporters:
             self._publisher.reporters.remove(self._report)
 

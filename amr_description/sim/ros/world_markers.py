@@ -52,7 +52,7 @@ class WorldPublisher:
     ) -> None:
         """``loop_publisher``: has it recorded with what a run publishes."""
         publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
-        self._publisher = loop_publisher.taped(publisher) if loop_publisher else publisher
+        self._publisher = loop_publisher.recorded(publisher) if loop_publisher else publisher
         self._world = world
 
     def publish(self) -> None:

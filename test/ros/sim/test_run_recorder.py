@@ -43,7 +43,7 @@ class Host:
         self.said = self.loop_publisher.topic(said, filling(fill, String()))
         names = self.node.create_publisher(String, 'names', LATCHED)
         self.names = self.loop_publisher.topic(names, filling(fill, String()))
-        self.now = self.loop_publisher.taped(self.node.create_publisher(String, 'now', LATCHED))
+        self.now = self.loop_publisher.recorded(self.node.create_publisher(String, 'now', LATCHED))
         subscription = self.node.create_subscription(String, 'heard', print, 1)
         self.heard = Input(Port('heard', 'std_msgs/msg/String'))
         self.loop_publisher.input(self.heard, subscription)
@@ -60,7 +60,7 @@ class Host:
             is_paced=lambda: self.is_paced,
             log=lambda severity, text, **_: self.lines.append((severity, text)),
         )
-        self.loop_publisher.set_tape(self.recorder)
+        self.loop_publisher.set_recorder(self.recorder)
         return self.recorder
 
     def cycle(self, time, *samples):
@@ -75,7 +75,7 @@ class Host:
         self.heard.put(text, serialize(String(data=text)))
 
     def end(self):
-        self.loop_publisher.set_tape(None)
+        self.loop_publisher.set_recorder(None)
         return self.recorder.close()
 
     def files(self):
@@ -189,7 +189,7 @@ def test_files_are_read_before_the_lock_that_the_control_thread_needs(host, monk
         prepared.append(name)
 
     monkeypatch.setattr(recorder, 'prepare', prepare)
-    host.loop_publisher.taped(host.node.create_publisher(TFMessage, 'later', 1))
+    host.loop_publisher.recorded(host.node.create_publisher(TFMessage, 'later', 1))
     assert prepared == ['tf2_msgs/msg/TFMessage']
     host.end()
 
@@ -247,7 +247,7 @@ def test_a_full_disk_ends_the_recording_and_nothing_else(host, monkeypatch):
         raise BagError('No space left on device')
 
     host.record()
-    host.recorder.on_failure = lambda: host.loop_publisher.set_tape(None)
+    host.recorder.on_failure = lambda: host.loop_publisher.set_recorder(None)
     monkeypatch.setattr(BagWriter, 'write', refuse)
     host.cycle(10, 'a')
     assert host.said.sink is None, 'it still makes what nobody hears'

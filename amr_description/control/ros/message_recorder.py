@@ -21,7 +21,7 @@ type Sink = Callable[[bytes], None]
 """Takes a serialized message; on any thread."""
 
 
-class Tape(Protocol):
+class MessageRecorder(Protocol):
     """Records; :meth:`set_time` and the cycles are called on the control thread."""
 
     def prepare(self, name: str) -> None:
@@ -49,8 +49,8 @@ class Tape(Protocol):
         """Return what takes the messages that a controller acts on, likewise."""
 
 
-class TapedPublisher:
-    """A publisher of messages that are published now and then; :meth:`LoopPublisher.taped`."""
+class RecordedPublisher:
+    """A publisher of messages that are published now and then; :meth:`LoopPublisher.recorded`."""
 
     def __init__(self, publisher: Publisher, *, is_latched: bool) -> None:
         self.publisher = publisher
@@ -75,14 +75,14 @@ class TapedPublisher:
             sink(data)
             self.publisher.publish(data)
 
-    def attach(self, tape: Tape | None) -> None:
+    def attach(self, recorder: MessageRecorder | None) -> None:
         """Record from now on, what is latched first; None: no more."""
-        self._sink = None if tape is None else tape.messages_of(self.publisher)
+        self._sink = None if recorder is None else recorder.messages_of(self.publisher)
         if self._sink is not None and self._latest is not None:
             self._sink(serialize(self._latest))
 
 
-class TapedInput:
+class RecordedInput:
     """An input of a controller whose commands are recorded when the controller takes them."""
 
     def __init__(self, port: Input[Any], subscription: Subscription) -> None:
@@ -94,9 +94,9 @@ class TapedInput:
         """Of its messages."""
         return type_name(self._subscription.msg_type)
 
-    def attach(self, tape: Tape | None) -> None:
+    def attach(self, recorder: MessageRecorder | None) -> None:
         """Record from now on; None: no more."""
-        sink = None if tape is None else tape.commands_of(self._subscription)
+        sink = None if recorder is None else recorder.commands_of(self._subscription)
         if sink is None:
             self.port.on_drain = None
             return
