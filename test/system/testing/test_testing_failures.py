@@ -21,7 +21,8 @@ def test_that_passes(simulation):
     simulation(URDF).run(0.1)
 
 def test_number(simulation):
-    with Simulation(URDF, activate=[]):
+    with Simulation(URDF, activate=[], record='own') as sim:
+        sim.run(0.1)
         assert simulation(URDF).time == 1.0
 
 def test_a_fault_of_ours(simulation):
@@ -37,11 +38,11 @@ def test_no_start():
     Simulation(URDF, world='nowhere').__enter__()
 """
 BAGS = {
-    'test_number': ('test_number', 'test_number-2'),
+    'test_number': ('test_number',),
     'test_a_fault_of_ours': ('test_a_fault_of_ours',),
     'test_end': ('test_end',),
 }
-"""The simulations of each test that fails, if they have begun."""
+"""Of the simulations of each test that fails, if they have begun and it does not record itself."""
 LOADED = 'Loaded hardware .AmrSystem.'
 
 
@@ -105,6 +106,16 @@ def test_the_bags_are_beside_it_and_their_paths_in_the_report(report):
         assert [Path(each).name for each in shown] == names
     with BagReader(results / 'report.test_my_robot.test_number.mcap') as reader:
         assert '/mujoco_sim/run' in reader.topics
+
+
+def test_what_a_test_records_by_itself_is_whole(report):
+    by_test, results = report
+    assert '\nthe test itself records to own\n' in by_test['test_number']
+    with BagReader(results.parent / 'own') as reader:
+        times = [each.log_time for each in reader.messages(['/clock'])]
+    assert times == [10**7 * n for n in range(len(times))]
+    assert len(times) >= 10
+    assert (results.parent / 'own' / 'metadata.yaml').exists()
 
 
 def test_two_simulations_of_a_process_do_not_disturb_each_other(report):
