@@ -100,7 +100,7 @@ class Recorder:
         self._is_ending = False
         self._waiter = SubscriptionWaiter([], node.context)
         self._receiver = threading.Thread(target=self._receive, name='recorder: receive')
-        self._scribe = threading.Thread(target=self._write_all, name='recorder: write')
+        self._writer_thread = threading.Thread(target=self._write_all, name='recorder: write')
 
     @property
     def topics(self) -> Mapping[str, TopicMetadata]:
@@ -122,7 +122,7 @@ class Recorder:
     def start(self) -> None:
         """Begin to record."""
         self._receiver.start()
-        self._scribe.start()
+        self._writer_thread.start()
 
     def end(self) -> None:
         """Record no more, and write what has come; the writer is left open."""
@@ -130,7 +130,7 @@ class Recorder:
         self._waiter.wake()
         self._receiver.join()
         self._cache.close()
-        self._scribe.join()
+        self._writer_thread.join()
         self._destroy_drained()
         for subscription in self._subscriptions.values():
             self.node.destroy_subscription(subscription)
