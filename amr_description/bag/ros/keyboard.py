@@ -3,7 +3,7 @@
 """Keys of a terminal that control recorders and players, read in a thread of its own."""
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 import os
 import re
 import select
@@ -18,7 +18,8 @@ from amr_description.terminal import is_in_foreground, KeyParser
 SPACE, UP, DOWN, RIGHT = 'SPACE', 'CURSOR_UP', 'CURSOR_DOWN', 'CURSOR_RIGHT'
 _NAMES = {' ': SPACE, 'A': UP, 'B': DOWN, 'C': RIGHT}
 _ARROW = re.compile(r'\x1b[\[O]([ABC])')
-_BACKGROUND_PERIOD = 0.3  # s between two looks whether the terminal is ours again
+_LOCAL_MODES = 3  # of what tcgetattr returns
+_PERIOD = 0.3  # s between two looks whose the terminal is
 
 
 def names_of(text: str, parser: KeyParser | None = None) -> list[str]:
@@ -84,12 +85,12 @@ def _read(terminal: int, ended: int, bindings: Mapping[str, Callable[[], object]
     parser = KeyParser()
     while True:
         is_ours = is_in_foreground(terminal)
+        if is_ours:
+            _have_keys_at_once(terminal)
         sources = [terminal, ended] if is_ours else [ended]
-        ready, _, _ = select.select(sources, [], [], None if is_ours else _BACKGROUND_PERIOD)
+        ready, _, _ = select.select(sources, [], [], _PERIOD)
         if ended in ready:
             return
-        if not is_ours and is_in_foreground(terminal):
-            tty.setcbreak(terminal, termios.TCSANOW)  # the shell had it in between
         if terminal not in ready:
             continue
         try:
@@ -103,3 +104,15 @@ def _read(terminal: int, ended: int, bindings: Mapping[str, Callable[[], object]
         for name in names_of(text, parser):
             if name in bindings:
                 bindings[name]()
+
+
+def _have_keys_at_once(terminal: int) -> None:
+    """
+    Set the terminal to send keys, not lines, if a shell has set it otherwise.
+
+    A shell does so when it takes the terminal, and need not give it back as it was: after Ctrl-Z,
+    ``bg`` and ``fg`` bash leaves it to send lines. All that may pass between two looks.
+    """
+    with suppress(termios.error):  # it was closed, which is read next
+        if termios.tcgetattr(terminal)[_LOCAL_MODES] & termios.ICANON:
+            tty.setcbreak(terminal, termios.TCSANOW)

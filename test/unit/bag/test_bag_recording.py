@@ -4,9 +4,13 @@
 
 import os
 from pathlib import Path
+import pty
 import sys
+import termios
+from threading import Event
 
 import pytest
+from support.running_programs import PATIENCE
 from support.small_bags import BEGIN, LATCHED, MS, text_of, topic, write_bag, write_runs
 
 from amr_description.bag.qos_text import QosProfile
@@ -175,6 +179,20 @@ def test_without_a_terminal_there_are_no_keys(monkeypatch, capsys):
             assert not are_there
     line = 'stdin is not a terminal device. Keyboard handling disabled.\n'
     assert capsys.readouterr().err == line
+
+
+def test_a_key_comes_at_once_after_a_shell_had_the_terminal(monkeypatch):
+    """With Ctrl-Z, `bg` and `fg`, of which the reader need not see anything."""
+    master, slave = pty.openpty()
+    has_come = Event()
+    with open(master, 'wb', buffering=0) as terminal, open(slave) as stdin:
+        monkeypatch.setattr(sys, 'stdin', stdin)
+        lines = termios.tcgetattr(slave)
+        with keys({SPACE: has_come.set}):
+            termios.tcsetattr(slave, termios.TCSANOW, lines)
+            terminal.write(b' ')
+            assert has_come.wait(PATIENCE)
+        assert termios.tcgetattr(slave) == lines
 
 
 def test_a_key_that_comes_in_two_pieces():
