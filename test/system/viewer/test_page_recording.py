@@ -30,6 +30,8 @@ from amr_description.testing.program import own_domain
 AUDIT = (ROOT / 'test' / 'support' / 'page_audit.js').read_text()
 DRAWN = 'new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))'
 BRINGUP = Path(get_package_prefix('amr_description'), 'lib', 'amr_description', 'bringup')
+SMALL = {'width': 640, 'height': 480}
+"""A scene that is drawn by the processor costs as much as it has pixels."""
 PART = (2.0, 5.0)
 """s of the drive: where the part begins that is played, and how long it is."""
 HEARD = {'/tf', '/tf_static', '/odom', '/robot_description', '/joint_states'}
@@ -84,7 +86,7 @@ def is_at(page, seconds):
 
 def test_a_bag_is_scrubbed_forwards_and_backwards(browser, drive):
     with viewer('--bag', drive) as url:
-        page = browser.open(url, width=1280, height=760)
+        page = browser.open(url, **SMALL)
         page.wait_until('amr.now.samples > 500')  # all of it is plotted at once
         assert page.evaluate('amr.now.recording') == 'drive'
         assert is_at(page, 0.0)
@@ -133,7 +135,7 @@ def trails(page, after=None):
 
 def test_a_page_records_and_another_one_stops(browser, graph_viewer, bags):
     with started('topic', 'pub', '-r', '50', '/chatter', 'std_msgs/msg/String', 'data: hello'):
-        page = browser.open(graph_viewer, width=1280, height=760)
+        page = browser.open(graph_viewer, webgl=False, **SMALL)
         page.wait_until("amr.now.link === 'open'")
         page.click('.recorder button')
         page.wait_until('amr.now.writing')
@@ -159,7 +161,7 @@ def test_a_drive_that_is_trimmed_and_played_is_seen(browser, graph_viewer, drive
     part = tmp_path / 'part'
     options = ('--start-offset', str(begin), '--duration', str(length))
     assert ros2('bag', 'trim', str(drive), '-o', str(part), *options).returncode == 0
-    page = browser.open(graph_viewer, width=1280, height=760)
+    page = browser.open(graph_viewer, **SMALL)
     page.wait_until("amr.now.link === 'open'")
     with played(part) as play_until:
         for each in range(1, 11):
