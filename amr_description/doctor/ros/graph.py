@@ -8,7 +8,7 @@ left out.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 import os
 from pathlib import Path
@@ -27,7 +27,7 @@ from amr_description.doctor.ros.shared import (
     shared_of,
 )
 from amr_description.ros.endpoints import endpoint_node
-from amr_description.ros.local_participants import processes_of
+from amr_description.ros.local_participants import local_participants, processes_of
 from amr_description.ros.node_lists import PREFIX
 from amr_description.ros.rclpy_internals import NodeNameNonExistentError
 
@@ -100,7 +100,27 @@ class GraphProbe:
     def observe(self) -> Graph:
         """Return the graph."""
         host = self._own_host()
-        graph = Graph(topics=self._topics(host), nodes=tuple(self._nodes(host)))
+        node = self._node
+        found = {
+            name: (
+                node.get_publishers_info_by_topic(name),
+                node.get_subscriptions_info_by_topic(name),
+            )
+            for name, _ in sorted(node.get_topic_names_and_types())
+        }
+        ends = (each for both in found.values() for listed in both for each in listed)
+        prefixes = {bytes(each.endpoint_gid[:PREFIX]) for each in ends}
+        here = {each for each in prefixes if host is not None and each[:_HOST] == host}
+        running = prefixes - here | running_of(here, node.context.get_domain_id())
+        topics = tuple(
+            Topic(
+                name=name,
+                publishers=self._ends(publishers, running),
+                subscriptions=self._ends(subscriptions, running),
+            )
+            for name, (publishers, subscriptions) in found.items()
+        )
+        graph = Graph(topics=topics, nodes=tuple(self._nodes(host, running)))
         self._shared.release()
         return graph
 
@@ -118,7 +138,7 @@ class GraphProbe:
             for each in self._node.get_publishers_info_by_topic(_PARAMETER_EVENTS)
         ]
 
-    def _nodes(self, host: bytes | None) -> Iterator[GraphNode]:
+    def _nodes(self, host: bytes | None, running: Collection[bytes]) -> Iterator[GraphNode]:
         names = Counter(_full(*each) for each in self._node.get_node_names_and_namespaces())
         announcers = self._announcers()
         for name in sorted(names.keys() - {self._own}):
@@ -126,7 +146,7 @@ class GraphProbe:
             for prefix in places:
                 is_here = host is None or prefix[:_HOST] == host
                 pids = processes_of(prefix) if is_here else []
-                if pids or not is_here:
+                if pids or not is_here or prefix in running:
                     place = '' if is_here else prefix[:_HOST].hex()
                     yield self._described(name, pids[0] if len(pids) == 1 else None, place)
             if not places:  # it has no such publisher, or one that was not discovered yet
@@ -162,42 +182,33 @@ class GraphProbe:
 
     # --- topics -------------------------------------------------------------------------------
 
-    def _topics(self, host: bytes | None) -> tuple[Topic, ...]:
-        node = self._node
-        running: dict[bytes, bool] = {}
+    def _ends(
+        self, found: Iterable[TopicEndpointInfo], running: Collection[bytes]
+    ) -> tuple[Endpoint, ...]:
+        """Return the endpoints of others whose participant runs."""
         return tuple(
-            Topic(
-                name=name,
-                publishers=self._ends(node.get_publishers_info_by_topic(name), host, running),
-                subscriptions=self._ends(
-                    node.get_subscriptions_info_by_topic(name), host, running
-                ),
+            Endpoint(
+                node=endpoint_node(each) or _NAMELESS,
+                type_name=each.topic_type,
+                type_hash=_hash_of(each),
+                qos=qos_of(each.qos_profile),
             )
-            for name, _ in sorted(node.get_topic_names_and_types())
+            for each in found
+            if endpoint_node(each) != self._own and bytes(each.endpoint_gid[:PREFIX]) in running
         )
 
-    def _ends(
-        self,
-        found: Iterable[TopicEndpointInfo],
-        host: bytes | None,
-        running: dict[bytes, bool],
-    ) -> tuple[Endpoint, ...]:
-        """Return endpoints; ``running``: the participants that were looked for already."""
-        ends = []
-        for each in found:
-            prefix = bytes(each.endpoint_gid[:PREFIX])
-            if prefix not in running:
-                running[prefix] = prefix[:_HOST] != host or bool(processes_of(prefix))
-            if endpoint_node(each) != self._own and running[prefix]:
-                ends.append(
-                    Endpoint(
-                        node=endpoint_node(each) or _NAMELESS,
-                        type_name=each.topic_type,
-                        type_hash=_hash_of(each),
-                        qos=qos_of(each.qos_profile),
-                    )
-                )
-        return tuple(ends)
+
+def running_of(prefixes: Collection[bytes], domain: int) -> set[bytes]:
+    """
+    Return the participants of this host that run, of those that are in the graph.
+
+    A process that was killed stays in the graph for some seconds. Of a container with the network
+    of the host, or with hidepid, processes are not seen, though their sockets are: where there are
+    more participants than processes, it is not known which have ended, and all are taken to run.
+    """
+    known = {each for each in prefixes if processes_of(each)}
+    is_sure = len(local_participants(domain)) <= len(known)
+    return known if is_sure else {*prefixes}
 
 
 def serves(node: Node, name: str) -> bool:

@@ -48,6 +48,9 @@ def two_clocks(seen: Observations) -> Iterator[Finding]:
     clock = seen.clock
     if clock is None or len(clock.publishers) < 2:
         return
+    there = seen.graph.topic(_CLOCK).publishers if seen.graph else ()
+    if len(there) == 1:
+        return  # the other one has ended, and stays in the graph for a moment
     names = listed(clock.publishers)
     yield Finding(
         severity=Severity.ERROR,

@@ -120,6 +120,20 @@ def test_transforms_that_come_seldom_are_waited_for(graph, monkeypatch):
             assert probe.observe().trees[0].frames == {'odom', 'base'}
 
 
+@pytest.mark.parametrize(
+    ('sockets', 'expected'), [(1, {b'seen'}), (2, {b'seen', b'of a container'})]
+)
+def test_processes_that_are_not_seen_run_where_there_are_sockets_of_them(
+    monkeypatch, sockets, expected
+):
+    pids = {b'seen': [7], b'of a container': []}
+    monkeypatch.setattr(graph_probe, 'processes_of', pids.get)
+    monkeypatch.setattr(
+        graph_probe, 'local_participants', lambda _domain: {(n, n) for n in range(sockets)}
+    )
+    assert graph_probe.running_of(pids, 7) == expected
+
+
 class Broken:
     """A probe that raises in one of its calls."""
 

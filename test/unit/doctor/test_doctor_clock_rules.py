@@ -50,7 +50,16 @@ LATE = replace(stamp(), time=None, stamp=NOW - HOUR)
 
 FAULTS = {
     'two_clocks': (
-        {'clock': clock(publishers=('/mujoco_sim', '/rosbag2_player'))},
+        {
+            'clock': clock(publishers=('/mujoco_sim', '/rosbag2_player')),
+            'graph': graph(
+                topic(
+                    '/clock',
+                    [end('/mujoco_sim', CLOCK), end('/rosbag2_player', CLOCK)],
+                    [end('/slam', CLOCK)],
+                )
+            ),
+        },
         '2 publishers of /clock: /mujoco_sim, /rosbag2_player',
         'end all but one',
     ),
@@ -166,6 +175,9 @@ HEALTHY = {
                 node('/rosbag2_recorder', use_sim_time=False),
             ],
         )
+    },
+    'a simulator that was started again, after it was killed': {
+        'clock': clock(publishers=('/mujoco_sim', '/mujoco_sim'))
     },
     'as fast as possible': {'clock': clock(ticks=ticks(factor=9.0), sources=(source(0.0),))},
     'a factor of another simulator': {'clock': clock(ticks=ticks(factor=0.1), sources=())},
