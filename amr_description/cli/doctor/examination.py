@@ -3,6 +3,7 @@
 """What ``ros2 doctor`` observes, and how it prints what was found."""
 
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, ExitStack
 from dataclasses import dataclass, replace
@@ -24,7 +25,8 @@ from amr_description.text import one_line
 
 _COLORS = {Severity.ERROR: colors.RED, Severity.WARNING: colors.YELLOW}
 _OBSTACLES = {'c_library', 'python_abi', 'rmw_implementation', 'domain', 'security', 'log_folder'}
-_FIGURE = re.compile(r'\d+(?:\.\d+)?')
+_FIGURE = re.compile(r'(?<![\w/.-])-?\d+(?:\.\d+)?(?:e[+-]\d+)?(?![\w/])')
+"""A number, and no part of a name, as of ``/robot2``."""
 
 
 @dataclass(frozen=True)
@@ -82,12 +84,12 @@ def examine_and_print(args: Namespace) -> int:
 
 def watch(args: Namespace) -> int:
     """Examine again and again until Ctrl-C; print what is new, and what is gone."""
-    known: dict[str, Finding] = {}
+    known: dict[tuple[str, int], Finding] = {}
     is_first = True
     with observer() as observe:
         while True:
             began = time.monotonic()
-            now = {_key(finding): finding for finding in observe().findings}
+            now = keyed(observe().findings)
             new = [finding for key, finding in now.items() if key not in known]
             gone = [finding for key, finding in known.items() if key not in now]
             if new or gone or is_first:
@@ -96,9 +98,15 @@ def watch(args: Namespace) -> int:
             time.sleep(max(0.0, args.watch - (time.monotonic() - began)))
 
 
-def _key(finding: Finding) -> str:
-    """Return what identifies a fault while its figures change."""
-    return f'{finding.rule} {_FIGURE.sub("", finding.what)}'
+def keyed(findings: Sequence[Finding]) -> dict[tuple[str, int], Finding]:
+    """Return findings by what identifies each while its figures change."""
+    counts: Counter[str] = Counter()
+    found = {}
+    for finding in findings:
+        text = f'{finding.rule} {_FIGURE.sub("", finding.what)}'
+        found[text, counts[text]] = finding
+        counts[text] += 1
+    return found
 
 
 def _print_change(new: Sequence[Finding], gone: Sequence[Finding], *, as_json: bool) -> None:

@@ -35,8 +35,8 @@ def engaged_stop(seen: Observations) -> Iterator[Finding]:
             rule='engaged_stop',
             what=f'{lock.topic} is true, published by {listed(lock.holders) or "nobody any more"}',
             why='the robot is held at rest, and takes no commands until it is released',
-            fix=f'release STOP where it was pressed, or end {listed(lock.holders) or "it"} and '
-            f'{release}',
+            fix='once the way is clear, release STOP where it was pressed, or end '
+            f'{listed(lock.holders) or "it"} and {release}',
         )
 
 

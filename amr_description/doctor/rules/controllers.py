@@ -43,7 +43,7 @@ def controller_manager_silent(seen: Observations) -> Iterator[Finding]:
                 'controller_manager_silent',
                 f'{each.name} is there, but {each.name}/list_controllers does not answer',
                 'it hangs, or waits for its robot or its hardware: no controller can be loaded',
-                f'see its log, ros2 topic echo /rosout --filter "m.name=={each.name.strip("/")!r}"'
+                f'see its log, ros2 topic echo /rosout --filter "m.name=={_logger(each)!r}"'
                 ', and restart it',
             )
 
@@ -249,6 +249,11 @@ def _why(found: Controllers | None, manager: Manager, name: str) -> str:
     return f'; its log says: {lines[-1]}' if lines else ''
 
 
+def _logger(manager: Manager) -> str:
+    """Return the name that a manager logs by."""
+    return manager.name.strip('/').replace('/', '.')
+
+
 def _of(manager: Manager) -> str:
     """Return the option of ``ros2 control`` that names a manager."""
     return '' if manager.name == '/controller_manager' else f' -c {manager.name}'
@@ -256,6 +261,10 @@ def _of(manager: Manager) -> str:
 
 def _again(controller: Controller, manager: Manager) -> str:
     """Return what has a controller read its parameters again."""
+    if controller.state == 'finalized':  # no transition leads from there
+        unload = f'ros2 control unload_controller {controller.name}{_of(manager)}'
+        spawn = f'ros2 run controller_manager spawner {controller.name} -c {manager.name}'
+        return f'{unload} && {spawn}'
     verbs = {
         'active': ('set_controller_state {} inactive', 'cleanup_controller {}'),
         'inactive': ('cleanup_controller {}',),

@@ -49,8 +49,8 @@ def other_distribution(seen: Observations) -> Iterator[Finding]:
             f'/opt/ros/{others[0]} is sourced in this shell ({where}), and this is {DISTRIBUTION}',
             'modules, messages and libraries of both are mixed: imports fail, or nodes do not '
             'understand each other',
-            f'{_NEW_SHELL} {DISTRIBUTION}; remove the line from ~/.bashrc: '
-            f"sed -i '/opt\\/ros\\/{others[0]}/d' ~/.bashrc",
+            f'{_NEW_SHELL} {DISTRIBUTION}; what sources it: grep -n /opt/ros/{others[0]} '
+            '~/.bashrc ~/.profile',
         )
 
 

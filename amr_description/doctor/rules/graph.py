@@ -29,7 +29,9 @@ def duplicate_node_names(seen: Observations) -> Iterator[Finding]:
         elif len(set(processes)) > 1:
             places = f', in the processes {" and ".join(sorted(set(processes), key=int))}'
         rename = f'start one with --ros-args -r __node:={name.rpartition("/")[2]}_2'
-        fix = f'end one of them (kill -INT {processes[-1]}), or {rename}' if processes else rename
+        # A signal to a process that has both would end both.
+        is_apart = bool(processes) and len(set(processes)) == len(processes)
+        fix = f'end one of them (kill -INT {processes[-1]}), or {rename}' if is_apart else rename
         if len(hosts) > 1:
             fix = (
                 'give each machine another domain (export ROS_DOMAIN_ID=7), or each robot a '

@@ -5,6 +5,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator
 import math
+import shlex
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import error, Finding, Rule, warning
@@ -71,10 +72,11 @@ def sensor_frame_missing(seen: Observations) -> Iterator[Finding]:
             'empty',
             'nothing can transform them: they are not drawn, and costmaps and SLAM drop them',
             f"set frame_id (in Gazebo: <gz_frame_id>) of {who} to '{meant}', or ros2 run tf2_ros "
-            f'static_transform_publisher --frame-id {meant} --child-frame-id {frame}'
+            f'static_transform_publisher --frame-id {shlex.quote(meant)} --child-frame-id '
+            f'{shlex.quote(frame)}'
             if meant
             else 'ros2 run tf2_ros static_transform_publisher --frame-id base_link '
-            f'--child-frame-id {frame or "laser"}',
+            f'--child-frame-id {shlex.quote(frame or "laser")}',
         )
 
 

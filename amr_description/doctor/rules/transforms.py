@@ -5,6 +5,7 @@
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
 import math
+import shlex
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import error, Finding, Rule, warning
@@ -164,8 +165,8 @@ def tf_islands(seen: Observations) -> Iterator[Finding]:
             fix = (
                 f"write '{meant}' in the place of '{root}' in {_owners(tree, root)}"
                 if meant
-                else f'ros2 run tf2_ros static_transform_publisher --frame-id {main} '
-                f'--child-frame-id {root}'
+                else f'ros2 run tf2_ros static_transform_publisher --frame-id {shlex.quote(main)} '
+                f'--child-frame-id {shlex.quote(root)}'
             )
             below = islands[root] - {root}
             yield warning(

@@ -8,6 +8,7 @@ import json
 import pytest
 from support.doctor_hosts import host, SIMULATOR
 
+from amr_description.cli.doctor.examination import keyed
 from amr_description.cli.doctor.greeting import count, Summary
 from amr_description.cli.doctor.reports import print_reports
 from amr_description.doctor import report
@@ -98,3 +99,15 @@ def test_greetings_of_other_hosts_count():
     assert lines[1] == 'Topic: /canyouhearme, Published Msg Count: 0'
     row = ['robot', '2']
     assert [line.split() for line in lines if line.split() == row] == [row]
+
+
+def test_a_watch_knows_a_finding_again_by_its_names_not_by_its_figures():
+    def scan(robot, age):
+        return warning(
+            'sensor_stamp', f'the stamps on /robot{robot}/scan are {age} s old', 'b', 'c'
+        )
+
+    first = keyed([scan(1, 2.5), scan(2, 2.5)])
+    assert len(first) == 2
+    assert keyed([scan(1, '1.8e+09'), scan(2, 7)]).keys() == first.keys()
+    assert len(keyed([scan(1, 1), scan(1, 2)])) == 2

@@ -43,6 +43,11 @@ FAULTS = {
         '3 nodes are named /slam, in the processes 7 and 42',
         'kill -INT 42',
     ),
+    'duplicate_node_names in one process': (
+        graph(nodes=[*NODES, node('/ekf', process=7), node('/ekf', process=7)]),
+        '2 nodes are named /ekf',
+        'start one with --ros-args -r __node:=ekf_2',
+    ),
     'duplicate_node_names of two machines': (
         graph(nodes=[*NODES, node('/slam', host='0f2b')]),
         '2 nodes are named /slam, on 2 machines',
@@ -217,3 +222,8 @@ def test_distance(one, other, letters):
 )
 def test_names_that_are_near(one, other, expected):
     assert is_near(one, other) is is_near(other, one) is expected
+
+
+def test_no_signal_ends_two_nodes_of_one_process():
+    seen, *_ = FAULTS['duplicate_node_names in one process']
+    assert 'kill' not in only(robot(graph=seen)).fix

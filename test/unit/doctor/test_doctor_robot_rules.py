@@ -281,3 +281,25 @@ def test_a_camera_without_calibration_is_a_warning_whatever_size_it_says():
 def test_a_finalized_component_is_not_to_be_activated():
     found = first(with_manager(components=(replace(SYSTEM, state='finalized'),)))
     assert found.fix.startswith('restart /controller_manager')
+
+
+def test_a_finalized_controller_is_loaded_anew():
+    drive = replace(DRIVER, state='finalized')
+    found = first(with_manager(controllers=(drive, BROADCASTER)))
+    assert found.rule == 'controller_unconfigured'
+    assert 'ros2 control unload_controller diff_drive_controller && ros2 run' in found.fix
+    assert 'set_controller_state' not in found.fix
+
+
+def test_the_name_of_a_frame_is_no_command_of_a_shell():
+    frame = 'x; reboot'
+    found = first(with_sensors(scans=(replace(SCAN, frame=frame),)))
+    assert found.fix.endswith("--child-frame-id 'x; reboot'")
+    found = first(with_edges(edge(frame, '$(reboot)', is_static=True)))
+    assert found.fix.endswith("--child-frame-id 'x; reboot'")
+
+
+def test_the_log_of_a_silent_manager_is_asked_for_by_the_name_of_its_logger():
+    found = first(with_manager(name='/r1/controller_manager', answers=False, controllers=()))
+    assert found.rule == 'controller_manager_silent'
+    assert "m.name=='r1.controller_manager'" in found.fix
