@@ -93,6 +93,8 @@ class Recorder:
         # former subscription, and that of the executor then destroys it.
         self._retired: deque[tuple[str, Subscription]] = deque()
         self._drained: deque[Subscription] = deque()
+        # What is to be added to the bag: this thread does not wait for the disk.
+        self._found: deque[TopicMetadata] = deque()
         self._refused: set[str] = set()
         self._has_hidden = False  # and said so
         self._clock = node.get_clock()
@@ -126,15 +128,25 @@ class Recorder:
 
     def end(self) -> None:
         """Record no more, and write what has come; the writer is left open."""
+        self.end_receiving()
+        self.complete()
+
+    def end_receiving(self) -> None:
+        """Record no more of what comes; what has come :meth:`complete` waits for."""
         self._is_ending = True
         self._waiter.wake()
         self._receiver.join()
         self._cache.close()
-        self._writer_thread.join()
         self._destroy_drained()
         for subscription in self._subscriptions.values():
             self.node.destroy_subscription(subscription)
         self._waiter.destroy()
+
+    def complete(self) -> None:
+        """Wait until what has come is written, after :meth:`end_receiving`; on any thread."""
+        self._writer_thread.join()
+        with self._writing:
+            self._try(self._add_topics)
 
     def discover(self) -> list[str]:
         """Subscribe to what is new; return the names of the topics."""
@@ -226,8 +238,7 @@ class Recorder:
                     f"type are supported. Reason: '{error}'",
                 )
                 return []
-        with self._writing:
-            self._try(lambda: self._writer.add_topic(metadata))
+        self._found.append(metadata)  # before a message of it can come
         self._topics[topic] = metadata
         if is_new or profile != self._profiles[topic]:
             self._profiles[topic] = profile
@@ -325,6 +336,7 @@ class Recorder:
             has_more = has_more or bool(messages)
             if has_more and time.monotonic() - flushed >= _FLUSH_PERIOD:
                 with self._writing:
+                    self._try(self._add_topics)
                     self._try(self._writer.flush)
                 flushed, has_more = time.monotonic(), is_direct
 
@@ -343,7 +355,12 @@ class Recorder:
         if self.options.use_sim_time and message.log_time < self._last_time:
             self._writer.split()
         self._last_time = message.log_time
+        self._add_topics()
         self._writer.write(message)
+
+    def _add_topics(self) -> None:
+        while self._found:
+            self._writer.add_topic(self._found.popleft())
 
     def _fail(self, error: Exception) -> None:
         """Record no more, because of a fault of the program."""

@@ -7,10 +7,12 @@ It goes on when the page has gone, until a page ends it or the viewer ends; the 
 then.
 """
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
+import threading
 import time
 
 from rclpy.clock import Clock
@@ -52,6 +54,8 @@ class PageRecorder:
         self._writer: BagWriter | None = None
         self._recorder: Recorder | None = None
         self._timer: Timer | None = None
+        self._ending: _Ending | None = None
+        """What is still being written."""
         self._begin = 0.0
         self.status = _NOTHING
         """The last that was told; replaced as a whole."""
@@ -59,19 +63,22 @@ class PageRecorder:
     async def handle(self, request: BagRequest) -> str:
         """Begin to record, or end that; return what was done. Raises ViewerError."""
 
-        def attempt() -> str | AmrError:
+        def attempt() -> str | AmrError | _Ending:
             try:
                 match request:
                     case StartRecording(topics=topics):
                         return self._start(topics)
                     case StopRecording():
-                        return self._stop()
+                        return self._end_receiving()
                     case _:
                         raise ViewerError('no bag is shown here; `viewer --bag PATH` shows one')
             except AmrError as error:
                 return error
 
         done = await on_ros_thread(self._executor, attempt)
+        if isinstance(done, _Ending):
+            await asyncio.to_thread(done.complete)
+            done = await on_ros_thread(self._executor, self._tell_end)
         if isinstance(done, AmrError):
             raise ViewerError(str(done)) from done
         return done
@@ -79,24 +86,42 @@ class PageRecorder:
     # --- on the ROS thread -----------------------------------------------------------------------
 
     def end(self) -> None:
-        """End what is recorded, if anything is."""
+        """End what is recorded, if anything is, and wait until it is written."""
+        if self._recorder is not None:
+            self._end_receiving()
+        if self._ending is not None:
+            self._ending.complete()
+            self._tell_end()
+
+    def _end_receiving(self) -> '_Ending':
+        """End what is recorded; what has come is not written yet. Raises ViewerError."""
         recorder, writer, timer = self._recorder, self._writer, self._timer
         self._recorder = self._writer = self._timer = None
         if timer is not None:
             self._node.destroy_timer(timer)
         if recorder is None or writer is None:
-            return
-        recorder.end()
-        status = self._status(recorder)
-        try:
-            writer.close()
-        except AmrError as error:
-            status = replace(status, error=status.error or str(error))
-        self._publish(replace(status, active=False))
+            raise ViewerError('nothing is recorded')
+        recorder.end_receiving()
+        self._ending = _Ending(recorder, writer)
+        return self._ending
+
+    def _tell_end(self) -> str | AmrError:
+        """Tell that all is written, unless that was told; return it as an answer."""
+        ending, self._ending = self._ending, None
+        if ending is not None:
+            status = self._status(ending.recorder)
+            error = status.error or ending.error
+            self._publish(replace(status, active=False, error=error))
+        status = self.status
+        if status.error:
+            return ViewerError(f'{status.path}: {status.error}')
+        return f'{status.path}: {status.messages} messages in {status.seconds:.0f} s'
 
     def _start(self, topics: tuple[str, ...]) -> str:
         if self._recorder is not None:
             raise ViewerError(f'{self.status.path} is recorded already; stop that first')
+        if self._ending is not None:
+            raise ViewerError(f'{self.status.path} is still being written; wait for that')
         wanted = TopicFilter(all_topics=not topics, topics=topics)
         path = _new_folder(self._folder)
         self._writer = BagWriter(path)
@@ -108,15 +133,6 @@ class PageRecorder:
         clock = Clock(clock_type=ClockType.STEADY_TIME)  # simulated time may stand
         self._timer = self._node.create_timer(_PERIOD, self._look, clock=clock)
         return f'recording into {path}'
-
-    def _stop(self) -> str:
-        if self._recorder is None:
-            raise ViewerError('nothing is recorded')
-        self.end()
-        status = self.status
-        if status.error:
-            raise ViewerError(f'{status.path}: {status.error}')
-        return f'{status.path}: {status.messages} messages in {status.seconds:.0f} s'
 
     def _look(self) -> None:
         """Subscribe to what is new, and tell what is recorded."""
@@ -144,6 +160,25 @@ class PageRecorder:
     def _publish(self, status: BagWriting) -> None:
         self.status = status
         self._tell(status)
+
+
+class _Ending:
+    """A bag of which all has come, but not all is written: a disk may be slow."""
+
+    def __init__(self, recorder: Recorder, writer: BagWriter) -> None:
+        self.recorder = recorder
+        self.error = ''
+        self._writer = writer
+        self._completing = threading.Lock()
+
+    def complete(self) -> None:
+        """Wait until all is written, on any thread; again: nothing."""
+        with self._completing:
+            self.recorder.complete()
+            try:
+                self._writer.close()
+            except AmrError as error:
+                self.error = str(error)
 
 
 def _new_folder(parent: Path) -> Path:

@@ -4,6 +4,7 @@
 
 from contextlib import contextmanager
 from pathlib import Path
+import threading
 import time
 
 import pytest
@@ -274,6 +275,27 @@ def test_services_pause_resume_and_split(tmp_path):
     assert events[0].closed_file == str(tmp_path / 'bag' / 'bag_0.mcap')
     assert events[0].opened_file == str(tmp_path / 'bag' / 'bag_1.mcap')
     assert events[0].node_name == '/recorder'
+
+
+def test_a_topic_is_found_while_the_disk_is_slow(tmp_path, monkeypatch):
+    goes_on, in_time = threading.Event(), []
+    with hosted(tmp_path / 'bag') as host:
+        write = host.writer.write
+
+        def slowly(message):
+            in_time.append(goes_on.wait(PATIENCE))
+            write(message)
+
+        monkeypatch.setattr(host.writer, 'write', slowly)
+        first = host.node.create_publisher(String, 'a', 10)
+        host.subscribed('/a')
+        host.send(first, 'of a')
+        second = host.node.create_publisher(String, 'b', 10)
+        host.subscribed('/b')
+        host.send(second, 'of b')
+        goes_on.set()
+    assert in_time == [True, True]
+    assert texts(tmp_path / 'bag') == ['of a', 'of b']
 
 
 def test_calls_of_a_service_are_recorded(tmp_path):
