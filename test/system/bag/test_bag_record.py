@@ -142,7 +142,7 @@ def test_in_the_background_of_a_shell_it_goes_on(tmp_path):
         shell.type(' ')
         place = shell.expect('Pausing recording.', place).end()
         shell.type('\x03')
-        shell.expect('Recording stopped', place)
+        shell.expect(r'Recording stopped(.*\n)*?.*prompt> ', place)
         shell.type('exit\n')
         shell.end()
     assert count(tmp_path / 'bag') > 0
