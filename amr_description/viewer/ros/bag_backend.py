@@ -6,6 +6,7 @@ import asyncio
 from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence, Set as AbstractSet
 from pathlib import Path
+import threading
 import time
 from typing import NoReturn
 
@@ -61,6 +62,8 @@ _LARGEST = 16 * 1024 * 1024
 """Bytes of all its states: well below what a page may be behind, see pages.py."""
 _FEWEST = 1 / 60
 """s between two states of an overview, at least."""
+_LONGEST_READ = 15.0
+"""s for all messages of a topic: pages wait for 20 s."""
 _ONLY_A_RECORDING = 'this page shows a recording: nothing of it can be driven or changed'
 
 
@@ -98,6 +101,8 @@ class BagBackend:
         """The time of the last state, ns."""
         self._worlds: dict[str, World] = {}
         """What was published last of those."""
+        self._reads: dict[str, set[threading.Event]] = {}
+        """By page: set, they end what is read for it."""
         self._overview: asyncio.Task[OverviewData] | None = None
 
     def close_bag(self) -> None:
@@ -133,8 +138,10 @@ class BagBackend:
         self._parts = watched.parts
         self._samples.watch(watched)
 
-    def forget(self, page: str) -> None:  # noqa: ARG002
-        """Nothing is a page's own."""
+    def forget(self, page: str) -> None:
+        """End what is read for it."""
+        for each in self._reads.pop(page, ()):
+            each.set()
 
     # --- what is shown ---------------------------------------------------------------------------
 
@@ -180,7 +187,7 @@ class BagBackend:
 
     # --- what pages ask --------------------------------------------------------------------------
 
-    async def handle(self, request: Request, page: str) -> Answer:  # noqa: ARG002
+    async def handle(self, request: Request, page: str) -> Answer:
         """Carry out a request of a page. Raises ViewerError."""
         match request:
             case Seek(place=place):
@@ -190,7 +197,7 @@ class BagBackend:
                 self._run(playing=request.playing, rate=request.rate)
                 return Answer('playing' if request.playing else 'paused')
             case ReadSeries(topic=topic, path=path):
-                return Answer(f'{topic} {path}', await self._series(topic, path))
+                return Answer(f'{topic} {path}', await self._series(topic, path, page))
             case ReadOverview():
                 return Answer('the whole recording', await self._whole())
             case Definition():
@@ -305,11 +312,25 @@ class BagBackend:
             {},
         )
 
-    async def _series(self, topic: str, path: str) -> object:
+    async def _series(self, topic: str, path: str, page: str) -> object:
+        """Return a number of all messages. Raises ViewerError: there is none, or it takes long."""
+        is_over = threading.Event()
+        reads = self._reads.setdefault(page, set())
+        reads.add(is_over)
         loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(
-            None, read_series, self._path, self.recorded, topic, path
-        )
+        try:
+            async with asyncio.timeout(_LONGEST_READ):
+                return await loop.run_in_executor(
+                    None, read_series, self._path, self.recorded, topic, path, is_over
+                )
+        except TimeoutError:
+            raise ViewerError(
+                f'{topic} takes longer than {_LONGEST_READ:g} s to read; '
+                '`ros2 bag trim` makes a shorter bag'
+            ) from None
+        finally:
+            is_over.set()
+            reads.discard(is_over)
 
     async def _whole(self) -> OverviewData:
         """Return states of the whole bag; they are made once."""

@@ -121,7 +121,9 @@ class _Feed:
         return None
 
 
-def read_series(path: Path, recorded: Recorded, topic: str, field: str) -> SeriesData:
+def read_series(
+    path: Path, recorded: Recorded, topic: str, field: str, is_over: threading.Event
+) -> SeriesData:
     """
     Return a number of all messages of a topic.
 
@@ -130,9 +132,10 @@ def read_series(path: Path, recorded: Recorded, topic: str, field: str) -> Serie
         recorded: what it says.
         topic: in the bag.
         field: its path.
+        is_over: set when nobody waits for it any more.
 
     Raises:
-        ViewerError: there is no such topic or number.
+        ViewerError: there is no such topic or number, or nobody waits.
         BagError: the bag cannot be read.
     """
     known = recorded.topics.get(topic)
@@ -146,6 +149,8 @@ def read_series(path: Path, recorded: Recorded, topic: str, field: str) -> Serie
     with BagReader(path) as reader:
         reader.keep_last_run()
         for message in reader.messages([topic]):
+            if is_over.is_set():
+                raise ViewerError('nobody waits for it any more')
             try:
                 seconds, nanoseconds, value = fields.read(message.data)
             except ValueError:  # it is broken

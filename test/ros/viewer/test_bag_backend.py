@@ -7,6 +7,7 @@ from base64 import b64decode
 from contextlib import contextmanager
 import json
 import struct
+import threading
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
@@ -24,6 +25,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.bag.mcap_writer import BagWriter
+from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError, ViewerError
 from amr_description.ros.message_types import type_name
@@ -168,6 +170,36 @@ def test_a_series_has_a_number_of_all_messages(backend):
     assert len(stamps) == len(values) == 501
     assert stamps[[0, -1]] == pytest.approx((BEGIN / 1e9, BEGIN / 1e9 + LENGTH))
     assert values[-1] == pytest.approx(pose_at(LENGTH)[0])
+
+
+@pytest.mark.parametrize('how', ['page has gone', 'takes too long'])
+def test_a_series_that_nobody_waits_for_is_read_no_further(backend, monkeypatch, how):
+    begun, goes_on, read = threading.Event(), threading.Event(), []
+    messages = BagReader.messages
+
+    def slowly(reader, topics):
+        for each in messages(reader, topics):
+            read.append(each)
+            begun.set()
+            assert goes_on.wait(PATIENCE)
+            yield each
+
+    async def leave():
+        request = ReadSeries(1, '/odom', 'pose.pose.position.x')
+        wish = asyncio.create_task(backend.handle(request, 'page 2'))
+        if how == 'page has gone':
+            assert await asyncio.to_thread(begun.wait, PATIENCE)
+            backend.forget('page 2')
+            goes_on.set()
+        with pytest.raises(ViewerError, match='nobody waits|takes longer than'):
+            await wish
+        goes_on.set()  # asyncio.run() waits for the thread
+
+    monkeypatch.setattr(BagReader, 'messages', slowly)
+    if how == 'takes too long':
+        monkeypatch.setattr(bag_backend, '_LONGEST_READ', 0.01)
+    asyncio.run(leave())
+    assert len(read) <= 1  # 0: it was over before its thread began
 
 
 def test_an_overview_goes_from_the_first_to_the_last_time(backend):
