@@ -14,7 +14,8 @@ from rclpy.node import Node
 from sensor_msgs.msg import CameraInfo, Image, Imu, JointState, LaserScan
 
 from amr_description.doctor.observations import sensors as seen
-from amr_description.doctor.ros.heard import HeardTopic, RobotTime
+from amr_description.doctor.ros.heard import HeardTopic
+from amr_description.doctor.ros.shared import RobotTime
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds
 
@@ -99,13 +100,15 @@ class SensorsProbe:
     def observe(self) -> seen.Sensors:
         """Return what was seen."""
         self._take()
-        return seen.Sensors(
+        found = seen.Sensors(
             scans=tuple(self._each(LaserScan, _scan)),
             images=tuple(self._images()),
             imus=tuple(self._each(Imu, _imu)),
             joints=tuple(self._joints()),
             travels=tuple(self._travels()),
         )
+        self._time.release()
+        return found
 
     def _take(self) -> None:
         for topic in self._topics.values():

@@ -138,6 +138,52 @@ class Shared:
         _SHARED.pop(self._node, None)
 
 
+class RobotTime:
+    """What time it was for the robot when a message came: by ``/clock``, or by the system."""
+
+    def __init__(self, node: Node) -> None:
+        """Listen to ``/clock``, if somebody publishes it."""
+        self.is_simulated = node.count_publishers(CLOCK_TOPIC) > 0
+        self._shared = shared_of(node)
+        self._seen = self._first = 0
+        if self.is_simulated:
+            self._shared.listen()
+
+    def take(self) -> None:
+        """Take the ticks that have come. Where time was reset, the earlier ones are left out."""
+        self._shared.hear()
+        ticks = self._shared.ticks
+        for place in range(max(self._seen, 1), len(ticks)):
+            if ticks[place].time < ticks[place - 1].time:
+                self._first = place
+        self._seen = len(ticks)
+
+    def release(self) -> None:
+        """Listen no more."""
+        self._shared.release()
+
+    @property
+    def is_known(self) -> bool:
+        """Whether two ticks have come, or none are needed."""
+        return not self.is_simulated or self._seen - self._first > 1
+
+    def age(self, stamp: int, received: int) -> int | None:
+        """
+        Return how old a stamp was when its message came, ns; None: not known.
+
+        Of what comes between two ticks it is not known which of them it belongs to: the age is
+        the one that is nearer to 0.
+        """
+        if not self.is_simulated:
+            return received - stamp
+        ticks = self._shared.ticks
+        place = bisect_right(ticks, received, self._first, key=lambda tick: tick.received)
+        if place in (self._first, len(ticks)):
+            return None
+        before, after = ticks[place - 1].time - stamp, ticks[place].time - stamp
+        return 0 if before <= 0 <= after else min(before, after, key=abs)
+
+
 def shared_of(node: Node) -> Shared:
     """Return what the probes of a node share; each releases it when it has observed."""
     shared = _SHARED.setdefault(node, Shared(node))

@@ -12,7 +12,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
 from amr_description.doctor.observations.transforms import Edge, Transforms, Tree
-from amr_description.doctor.ros.heard import HeardTopic, RobotTime
+from amr_description.doctor.ros.heard import HeardTopic
+from amr_description.doctor.ros.shared import RobotTime
 from amr_description.model.frames import Quaternion
 from amr_description.ros.messages import nanoseconds
 
@@ -81,6 +82,7 @@ class TransformsProbe:
                     translation=each.translation,
                 )
             )
+        self._time.release()
         return Transforms(
             trees=tuple(
                 Tree(
