@@ -5,14 +5,13 @@
 from collections.abc import Iterator
 from itertools import pairwise
 import math
-import re
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import Finding, Rule, Severity
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.clock import StampSeen
 from amr_description.doctor.observations.graph import Graph
-from amr_description.doctor.rules.wording import listed, right_clock, seconds
+from amr_description.doctor.rules.wording import listed, passes_on, right_clock, seconds
 
 OTHER_CLOCK = 60 * NANOSECONDS
 """ns: a stamp that is this far from the present is of another clock, not late or early."""
@@ -25,8 +24,6 @@ _RESET_BEFORE = NANOSECONDS
 """ns of simulated time: where it goes back to less, the simulation was reset."""
 _SILENCE = 1.0
 """s without a message on ``/clock``, after which none is on its way."""
-_PASSES_ON = re.compile(r'bridge|rosbag|record|relay|republish|throttle')
-"""In names of nodes that pass on messages with the stamps that these have, whatever their time."""
 _STAMPED = {
     'geometry_msgs/msg/PoseWithCovarianceStamped',
     'geometry_msgs/msg/TwistStamped',
@@ -140,7 +137,7 @@ def mixed_use_sim_time(seen: Observations) -> Iterator[Finding]:
             if node.use_sim_time is False
             and node.name not in exempt
             and node.name in stamping
-            and not _PASSES_ON.search(node.name.rpartition('/')[2])
+            and not passes_on(node.name)
         }
     )
     if not wrong:

@@ -8,6 +8,7 @@ from amr_description.doctor.findings import error, Finding, Rule
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.controllers import Manager
 from amr_description.doctor.observations.description import DescriptionTopic, examined, robot_of
+from amr_description.doctor.rules.wording import passes_on
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 
@@ -19,13 +20,14 @@ _LONGEST = 3
 def description_missing(seen: Observations) -> Iterator[Finding]:
     """Who subscribes to a description gets one."""
     for topic in _topics(seen):
-        if topic.publishers or not topic.subscribers:
+        waiting = [each for each in topic.subscribers if not passes_on(each)]
+        if topic.publishers or not waiting:
             continue
         elsewhere = [each.topic for each in _topics(seen) if each.publishers]
         inside = f' --ros-args -r __ns:={topic.namespace}' if topic.namespace else ''
         yield error(
             'description_missing',
-            f'{_names(topic.subscribers)} subscribes to {topic.topic}, which nobody publishes'
+            f'{_names(waiting)} subscribes to {topic.topic}, which nobody publishes'
             + (f'; there is {_names(elsewhere)}' if elsewhere else ''),
             'without a description it waits: there are no controllers, no robot and no frames',
             f'restart it with -r {topic.topic}:={elsewhere[0]}'

@@ -3,12 +3,14 @@
 """Nodes, types and times in the text of findings."""
 
 from collections.abc import Iterable, Sequence
+import re
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations.graph import Endpoint
 
 _SHOWN = 4
 _PROGRAM = '_ros2cli'
+_PASSES_ON = re.compile(r'bridge|rosbag|record|relay|republish|throttle')
 _PLAYER = 'rosbag2_player'
 
 
@@ -27,6 +29,11 @@ def listed(names: Sequence[str]) -> str:
 def named(node: str) -> str:
     """Return the name of a node."""
     return f'ros2 ({node})' if node.rpartition('/')[2].startswith(_PROGRAM) else node
+
+
+def passes_on(node: str) -> bool:
+    """Return whether a node passes on what it hears, as it is, and waits for none of it."""
+    return _PASSES_ON.search(node.rpartition('/')[2]) is not None
 
 
 def short_type(name: str, other: str) -> str:

@@ -170,6 +170,9 @@ HEALTHY = {
     'a robot that hardly moves': with_sensors(
         travels=(replace(TRAVEL, distance=0.2, true_distance=0.0, turn=0.1, true_turn=0.0),)
     ),
+    'a recorder that has outlived a robot': with_description(
+        subscribers=('/rosbag2_recorder',), publishers=(), texts=()
+    ),
     'a program that waits for no description': with_description(subscribers=(), publishers=()),
     'joints that only the URDF has, and TF': with_sensors(joints=()),
     'two robots in namespaces': robots.robot(
