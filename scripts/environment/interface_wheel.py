@@ -94,7 +94,10 @@ def _build(interfaces: Path, venv: Path, target: Path, environment: Mapping[str,
         environment = _with_tools(interfaces, venv, Path(scratch), environment)
         copy = Path(scratch, 'interfaces')
         shutil.copytree(interfaces, copy, ignore=shutil.ignore_patterns(*stamps.IGNORED))
-        progress('compiling the interface packages that PyPI lacks ...')
+        progress(
+            'compiling the interface packages that PyPI lacks, once for this machine: two to four '
+            'minutes on two cores ...'
+        )
         fresh = Path(tempfile.mkdtemp(dir=target.parent, prefix='unfinished-'))
         options = ['--no-deps', '--no-index', '--no-build-isolation', '--wheel-dir', fresh]
         try:
