@@ -73,7 +73,8 @@ def simulation() -> Iterator[MakeSimulation]:
 
     A simulation is started once in a module, reset by every further call with the same arguments,
     and started again if it has ended. All end with the module. The controllers stay as the last
-    test has switched them.
+    test has switched them. Programs that are started afterwards are in the ROS domain of the one
+    that was returned last.
     """
     running: dict[str, Simulation] = {}
 
@@ -82,6 +83,7 @@ def simulation() -> Iterator[MakeSimulation]:
         if key in running:
             sim = running[key]
             if sim.is_alive:
+                sim.enter_domain()
                 sim.reset()
                 bags.begin(sim.recording)
                 return sim

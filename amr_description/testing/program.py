@@ -52,7 +52,7 @@ WAYS_TO_OTHERS = (
 
 _MODULE = 'amr_description.nodes.mujoco_sim'
 _LINE = re.compile(r'^\[(?:ERROR|FATAL)\] (?:\[[^]]*\] ?)*:? ?(.*)', re.MULTILINE)
-_DOMAIN = 'ROS_DOMAIN_ID'
+DOMAIN = 'ROS_DOMAIN_ID'
 _THIS_HOST_ONLY = {
     'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
     'FASTRTPS_DEFAULT_PROFILES_FILE': str(UDP_LOOPBACK),
@@ -185,7 +185,7 @@ def take_domain() -> tuple[int, int]:
     Raises:
         SimulationError: None is free, or the system does not show who is there.
     """
-    forbidden = os.environ.get(_DOMAIN)
+    forbidden = os.environ.get(DOMAIN)
     start = os.getpid() % len(DOMAINS)
     occupied = 0
     for domain in (*DOMAINS[start:], *DOMAINS[:start]):
@@ -261,10 +261,10 @@ def own_domain() -> Iterator[int]:
     SimulationError: no domain is free.
     """
     domain, lock = take_domain()
-    changed = (_DOMAIN, *_THIS_HOST_ONLY, *WAYS_TO_OTHERS)
+    changed = (DOMAIN, *_THIS_HOST_ONLY, *WAYS_TO_OTHERS)
     before = {name: os.environ.pop(name, None) for name in changed}
     try:
-        os.environ |= {_DOMAIN: str(domain), **_THIS_HOST_ONLY}
+        os.environ |= {DOMAIN: str(domain), **_THIS_HOST_ONLY}
         yield domain
     finally:
         for name, value in before.items():

@@ -26,6 +26,7 @@ Several robots, each in the namespace of its name::
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 import math
+import os
 from pathlib import Path
 import time as wall
 from types import MappingProxyType, TracebackType
@@ -53,7 +54,7 @@ from amr_description.ros.local_participants import is_on_the_network
 from amr_description.ros.transport import udp_only
 from amr_description.testing import bags
 from amr_description.testing.lock_step import Condition, LockStep
-from amr_description.testing.program import own_domain, require_alone, simulator
+from amr_description.testing.program import DOMAIN, own_domain, require_alone, simulator
 from amr_description.testing.readings import Joint, Motion
 from amr_description.testing.recorded_run import read_run, RecordedRun
 from amr_description.testing.robot import (
@@ -159,7 +160,7 @@ class Simulation:
             self._files = self._parameter_files()
             given = str(self._parameters.get('bridge', ''))
             self._bridge = read_bridge(path_of(given)) if given else NO_BRIDGE
-            domain = stack.enter_context(own_domain())
+            self._domain = domain = stack.enter_context(own_domain())
             self._simulator = stack.enter_context(simulator(self._parameters))
             context = self._ros(stack, domain)
             self._lock_step = LockStep(self.node, self._simulator)
@@ -185,6 +186,14 @@ class Simulation:
     ) -> None:
         self._lock_step = None
         self._stack.__exit__(kind, error, traceback)
+
+    def enter_domain(self) -> None:
+        """
+        Have processes and contexts that are started from now on be in its ROS domain.
+
+        As at its start: another simulation that was started since has put them in its own.
+        """
+        os.environ[DOMAIN] = str(self._domain)
 
     @property
     def _running(self) -> LockStep:

@@ -209,6 +209,14 @@ def test_nothing_is_said_at_time_zero(sim):
             read()
 
 
+def test_programs_that_are_started_meet_the_simulation_that_was_asked_for_last(simulation):
+    domains = []
+    for options in ({}, {'activate': []}, {}):
+        simulation(URDF, **options)
+        domains.append(os.environ['ROS_DOMAIN_ID'])
+    assert domains[0] == domains[2] != domains[1]
+
+
 def test_the_end_of_the_simulator_is_told_and_another_is_started(simulation):
     first = simulation(URDF, activate=[])
     with pytest.raises(SimulationError, match='no controller that drives .* is active'):
