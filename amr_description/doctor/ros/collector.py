@@ -102,6 +102,7 @@ class Examination:
 
     def __init__(self, node: Node, probes: Mapping[str, Callable[[], Probe]] = PROBES) -> None:
         """Begin all ``probes``; whoever has ``node`` spins it, and destroys it in the end."""
+        self._node = node
         self._probes = {name: Guarded(make) for name, make in probes.items()}
         for each in self._probes.values():
             each.begin(node)
@@ -114,6 +115,10 @@ class Examination:
     def observe(self) -> Observations:
         """Return what was seen."""
         return _observed(self._probes)
+
+    def end(self) -> None:
+        """Forget what the probes shared, whether they have observed or not."""
+        forget(self._node)
 
 
 def collect(

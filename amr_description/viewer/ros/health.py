@@ -85,7 +85,9 @@ class Health:
         self._examination = Examination(self._doctor, _PROBES)
 
     def _end(self) -> None:
-        self._examination = None
+        if self._examination is not None:
+            self._examination.end()
+            self._examination = None
         if self._doctor is not None:
             if self._node.executor is not None:
                 self._node.executor.remove_node(self._doctor)

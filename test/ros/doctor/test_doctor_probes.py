@@ -8,6 +8,7 @@ from fixtures.cli.commands import running_node
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 import pytest
+from rclpy.node import Node
 from rclpy.serialization import serialize_message
 from rosgraph_msgs.msg import Clock
 from support.contract_graph import clock, MS, transforms
@@ -24,10 +25,10 @@ from amr_description.doctor.ros import (
     transforms as transforms_probe,
 )
 from amr_description.doctor.ros.clock import ClockProbe, stamp_in
-from amr_description.doctor.ros.collector import collect, what_is_made_goes
+from amr_description.doctor.ros.collector import collect, Examination, what_is_made_goes
 from amr_description.doctor.ros.commands import drive_of
 from amr_description.doctor.ros.graph import serves
-from amr_description.doctor.ros.shared import shared_of
+from amr_description.doctor.ros.shared import _SHARED, shared_of
 from amr_description.doctor.ros.transforms import TransformsProbe
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.service_calls import wait_until
@@ -172,6 +173,15 @@ def test_a_probe_that_raises_takes_no_other_with_it(graph, where):
     again = shared_of(graph.doctor)
     again.release()
     assert again is not shared  # nobody is counted who has failed before it released it
+
+
+def test_an_examination_that_is_broken_off_keeps_no_node(graph):
+    node = Node('page', start_parameter_services=False)
+    examination = Examination(node, GRAPH)
+    assert node in _SHARED
+    examination.end()
+    assert node not in _SHARED
+    node.destroy_node()
 
 
 def test_the_stamp_of_serialized_messages():
