@@ -437,7 +437,7 @@ SENSORS = {
 }
 
 
-@pytest.mark.parametrize('rule', some(SENSORS, 'scan_length', 'joint_state_publishers'))
+@pytest.mark.parametrize('rule', some(SENSORS, 'scan_length'))
 def test_a_sensor(patient, rule):
     with patient.intruder('driver') as node:
         topics = SENSORS[rule]
