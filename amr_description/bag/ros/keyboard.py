@@ -91,7 +91,11 @@ def _read(terminal: int, ended: int, bindings: Mapping[str, Callable[[], object]
         ready, _, _ = select.select(sources, [], [], _PERIOD)
         if ended in ready:
             return
-        if terminal not in ready:
+        if terminal not in ready or not is_in_foreground(terminal):
+            continue
+        # It may have been a line for the shell, which has read it and given the terminal back.
+        _have_keys_at_once(terminal)
+        if not select.select([terminal], [], [], 0)[0]:
             continue
         try:
             text = os.read(terminal, 1024).decode(errors='replace')
