@@ -227,7 +227,8 @@ def _overlap(one: list[CommandSeen], other: list[CommandSeen]) -> bool:
 
 
 def _node_of(topic: CommandTopic) -> str:
-    return topic.publishers[0] if topic.publishers else 'NODE'
+    # Of a node whose name was not discovered yet the probe says 'a node'.
+    return next((each for each in topic.publishers if each.startswith('/')), 'NODE')
 
 
 RULES: tuple[Rule, ...] = (

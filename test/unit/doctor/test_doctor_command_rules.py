@@ -139,3 +139,9 @@ def test_seldom_goes_by_simulated_time():
 def test_commands_that_no_drive_takes_are_not_judged():
     """A mux may be between, whose time-out is its own."""
     assert found(robot(commands=commands(*SLOW, *FIGHT, topics=('/elsewhere',)))) == []
+
+
+def test_a_fix_names_no_node_whose_name_is_not_known():
+    seen = commands(*each_100_ms(age=20 * NANOSECONDS - NOW), publishers=('a node',))
+    (finding,) = found(robot(commands=seen))
+    assert finding.fix.startswith('ros2 param set NODE use_sim_time true')
