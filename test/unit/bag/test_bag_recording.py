@@ -5,6 +5,7 @@
 import os
 from pathlib import Path
 import pty
+import select
 import sys
 import termios
 from threading import Event
@@ -193,6 +194,33 @@ def test_a_key_comes_at_once_after_a_shell_had_the_terminal(monkeypatch):
             terminal.write(b' ')
             assert has_come.wait(PATIENCE)
         assert termios.tcgetattr(slave) == lines
+
+
+def test_a_key_comes_after_a_line_that_the_shell_has_read(monkeypatch):
+    """It wakes the reader, too."""
+    master, slave = pty.openpty()
+    has_come, has_read = Event(), Event()
+    wait = select.select
+
+    def woken(sources, *rest):
+        ready = wait(sources, *rest)
+        if slave in ready[0] and not has_read.is_set():
+            termios.tcsetattr(slave, termios.TCSANOW, lines)
+            os.read(slave, 9)
+            has_read.set()
+        return ready
+
+    monkeypatch.setattr(select, 'select', woken)
+    with open(master, 'wb', buffering=0) as terminal, open(slave) as stdin:
+        monkeypatch.setattr(sys, 'stdin', stdin)
+        lines = termios.tcgetattr(slave)
+        with keys({SPACE: has_come.set}):
+            terminal.write(b'fg\n')
+            assert has_read.wait(PATIENCE)
+            terminal.write(b' ')
+            came = has_come.wait(PATIENCE)
+            terminal.write(b'\n')  # for a reader that waits for a line
+        assert came
 
 
 def test_a_key_that_comes_in_two_pieces():
