@@ -11,6 +11,8 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from rclpy.task import Future
 
+from amr_description.ros.service_calls import ServiceReadiness
+
 _AGAIN = 0.5
 """s until a question is asked again: a server may throw away its first response to a client that
 it has not discovered yet."""
@@ -25,6 +27,7 @@ class Question:
 
     def __init__(self, node: Node, service_type: Any, service: str, **fields: Any) -> None:
         self._client: Client = node.create_client(service_type, service)
+        self._is_ready = ServiceReadiness(node, self._client)
         self._request = service_type.Request(**fields)
         self._futures: list[Future] = []
         self._began = time.monotonic()
@@ -42,7 +45,7 @@ class Question:
             if future.done() and not future.exception():
                 self._response = future.result()
         now = time.monotonic()
-        if now - self._last >= _AGAIN and self._client.service_is_ready():
+        if now - self._last >= _AGAIN and self._is_ready():
             self._last, self._asked = now, self._asked or now
             self._futures.append(self._client.call_async(self._request))
         return self._response

@@ -8,6 +8,7 @@ import math
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.controllers import Controller, Controllers, Manager
+from amr_description.doctor.rules.machine import overloaded
 from amr_description.model.checks import examine_drives
 from amr_description.model.checks.context import DriveSettings
 from amr_description.model.findings import Severity as UrdfSeverity, SourceLocation
@@ -36,7 +37,9 @@ def controller_manager_missing(seen: Observations) -> Iterator[Finding]:
 
 
 def controller_manager_silent(seen: Observations) -> Iterator[Finding]:
-    """The services of a controller manager answer."""
+    """The services of a controller manager answer; where the machine has the time for it."""
+    if any(overloaded(seen)):
+        return
     for each in _managers(seen):
         if not each.answers:
             yield error(

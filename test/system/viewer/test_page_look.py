@@ -112,6 +112,10 @@ def show(page, tab):
     page.evaluate("document.querySelector('.tabs').scrollTo(0, 0)")  # whatever was shown before
     page.evaluate(f"document.getElementById('tab-{tab}').click()")
     if tab == 'parameters':
+        # A choice that is not there yet cannot be made.
+        page.wait_until(
+            'document.querySelector(\'#parameter-node [value="/controller_manager"]\')'
+        )
         page.evaluate(
             """(() => {
               const node = document.getElementById('parameter-node');

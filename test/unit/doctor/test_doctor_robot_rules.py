@@ -7,6 +7,7 @@ import math
 
 import pytest
 from support import doctor_robots as robots
+from support.doctor_hosts import MACHINE
 from support.doctor_robots import (
     BROADCASTER,
     DRIVE,
@@ -300,6 +301,12 @@ def test_the_name_of_a_frame_is_no_command_of_a_shell():
     assert found.fix.endswith("--child-frame-id 'x; reboot'")
     found = first(with_edges(edge(frame, '$(reboot)', is_static=True)))
     assert found.fix.endswith("--child-frame-id 'x; reboot'")
+
+
+def test_a_manager_is_not_called_silent_where_nobody_gets_a_processor():
+    silent = with_manager(answers=False, controllers=(), components=())
+    busy = replace(silent, machine=replace(MACHINE, load=9.0))
+    assert [each.rule for each in examine(busy)] == ['overloaded']
 
 
 def test_the_log_of_a_silent_manager_is_asked_for_by_the_name_of_its_logger():
