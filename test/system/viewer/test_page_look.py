@@ -114,7 +114,8 @@ def show(page, tab):
     if tab == 'parameters':
         # A choice that is not there yet cannot be made.
         page.wait_until(
-            'document.querySelector(\'#parameter-node [value="/controller_manager"]\')'
+            "[...document.getElementById('parameter-node').options]"
+            ".some(({ value }) => value === '/controller_manager')"
         )
         page.evaluate(
             """(() => {
