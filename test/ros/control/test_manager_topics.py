@@ -77,6 +77,7 @@ def states(message):
 
 def test_activity_is_told_to_whoever_comes_late_and_at_every_change(host):
     hardware = {'hardware': (3, 'active')}
+    await_(host, lambda: host.loop_thread.loop.time > 0)
     assert host.client.load('joint_state_broadcaster')
     with listening(host, ControllerManagerActivity, '/controller_manager/activity', LATCHED) as h:
         first = latest(host, h, lambda _: True)
