@@ -13,6 +13,7 @@ from rclpy.node import Node
 from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import AmrError
+from amr_description.ros.message_types import type_name
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.wait_clock import WaitClock
 
@@ -63,13 +64,21 @@ class ServiceReadiness:
         """Return whether it is there now."""
         if self._client.service_is_ready():
             return True
-        if not self._node.count_services(self._client.srv_name):
+        if not self._is_offered():
             self._present_since = None
             return False
         now = time.monotonic()
         if self._present_since is None:
             self._present_since = now
         return now - self._present_since >= _MATCHED_BY
+
+    def _is_offered(self) -> bool:
+        """Whether somebody has the service, of the client's type: no other one would answer."""
+        name = self._client.srv_name
+        if not self._node.count_services(name):
+            return False
+        types = dict(self._node.get_service_names_and_types()).get(name, [])
+        return type_name(self._client.srv_type) in types
 
 
 def client_node(name: str) -> Node:

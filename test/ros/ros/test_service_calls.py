@@ -13,7 +13,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.task import Future
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 from support.manager_host import ros_in_this_process
 from support.ros_processes import PATIENCE
 from support.serving import serving
@@ -169,6 +169,21 @@ def test_a_client_that_is_never_ready_calls_what_is_in_the_graph(server, caller,
     assert not is_ready()
     server.answer.set_result('here')
     assert call_with(caller, client, Trigger.Request(), timeout=PATIENCE).message == 'here'
+
+
+def test_a_service_of_another_type_is_not_ready(server, monkeypatch):
+    monkeypatch.setattr(service_calls, '_MATCHED_BY', 0.0)
+    context = Context()  # a topic has one type in a participant
+    rclpy.init(args=[], context=context)
+    node = Node('other', context=context)
+    client = node.create_client(SetBool, '/slow')
+    deadline = time.monotonic() + PATIENCE
+    while not node.count_services('/slow'):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    assert not ServiceReadiness(node, client)()
+    node.destroy_node()
+    context.try_shutdown()
 
 
 @pytest.mark.parametrize('rounds', [8, pytest.param(200, marks=pytest.mark.long)])

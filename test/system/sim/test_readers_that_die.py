@@ -11,6 +11,7 @@ import time
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from support.navigated_robot import until
 from support.ros_processes import PATIENCE
 
 from amr_description.bringup.guardian import remove_unused_segments
@@ -58,6 +59,7 @@ def outcome_of(churn, factor, rounds):
                 if number == rounds // 10:
                     before = resident(process.pid)
                 churn.run_round()
+            until(lambda: observer.count > 100)  # it goes on
             silent = time.monotonic() - observer.last_heard
             growth = resident(process.pid) - before
         maps = Path(f'/proc/{process.pid}/maps').read_text(encoding='utf-8')
