@@ -73,12 +73,15 @@ class ServiceReadiness:
         return now - self._present_since >= _MATCHED_BY
 
     def _is_offered(self) -> bool:
-        """Whether somebody has the service, of the client's type: no other one would answer."""
-        name = self._client.srv_name
-        if not self._node.count_services(name):
+        """Whether somebody has the service, and not of another type: that one will not answer."""
+        if not self._node.count_services(self._client.srv_name):
             return False
-        types = dict(self._node.get_service_names_and_types()).get(name, [])
-        return type_name(self._client.srv_type) in types
+        # By the topic of the responses, as DDS names it: that of requests has the clients' type.
+        topic = f'rr{self._client.srv_name}Reply'
+        package, kind, name = type_name(self._client.srv_type).split('/')
+        wanted = f'{package}::{kind}::dds_::{name}_Response_'
+        servers = self._node.get_publishers_info_by_topic(topic, no_mangle=True)
+        return not servers or any(each.topic_type == wanted for each in servers)
 
 
 def client_node(name: str) -> Node:
