@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """``examples/send_goal.py`` where something goes wrong; a person types it in the long tests."""
 
+from contextlib import ExitStack
 import signal
 import sys
 
@@ -14,8 +15,9 @@ EXAMPLE = str(ROOT / 'examples/send_goal.py')
 
 
 def test_ctrl_c_cancels_the_goal():
-    with Navigating() as robot:
+    with Navigating() as robot, ExitStack() as stack:
         server = NavigationServer(robot, 'navigate_to_pose')
+        stack.callback(server.destroy)  # the node's end leaves it, and the node in the graph
         with Program(sys.executable, EXAMPLE, '1.5', '0.5') as program:
             program.expect('3.24 m left')
             goal = server.goals[0]
