@@ -17,10 +17,9 @@ from amr_description.model.sensors import Camera, ContactSensor, Lidar
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.ros.sensors.camera import CameraTopics
 from amr_description.sim.ros.sensors.contact import ContactTopics
-from amr_description.sim.ros.sensors.lidar import LidarTopics, MOST_RAYS
+from amr_description.sim.ros.sensors.lidar import LidarTopics, ray_budget
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
 from amr_description.sim.ros.sensors.worker import SensorWorker
-from amr_description.sim.sensor_schedule import CycleBudget
 from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
 
@@ -52,7 +51,7 @@ class Equipment:
         self._worker = SensorWorker(loop_publisher, log, is_paced)
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
-        self._ray_budget = CycleBudget(MOST_RAYS)
+        self._ray_budget = ray_budget()
         self.renderer = ChosenRenderer(camera_renderer, log)
         """Of the pictures of cameras."""
 

@@ -29,6 +29,7 @@ from amr_description.sim.ros.sensors.lidar_messages import (
     ScanEncoder,
 )
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
+from amr_description.sim.sensor_schedule import CycleBudget
 from amr_description.sim.state_copy import StateCopy
 
 QOS = QoSProfile(depth=10)
@@ -40,6 +41,11 @@ MOST_RAYS = 1500
 Those that would exceed it, such as the fifth of a fleet, measure on the other thread."""
 LONGEST = 0.001
 """s of processor time of one measurement; in real time a slower lidar leaves the thread."""
+
+
+def ray_budget() -> CycleBudget:
+    """Return the rays that the lidars of one world may cast on the control thread."""
+    return CycleBudget(MOST_RAYS)
 
 
 class LidarTopics(SensorTopics):
