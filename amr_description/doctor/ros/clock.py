@@ -13,7 +13,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations.clock import Clock, StampSeen, TimeSource
 from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.shared import CLOCK_TOPIC, Question, shared_of
+from amr_description.doctor.ros.questions import ParameterQuestion
+from amr_description.doctor.ros.shared import CLOCK_TOPIC, shared_of
 from amr_description.doctor.rules.clock import LEAST_FACTOR_SHARE
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
@@ -76,7 +77,7 @@ class ClockProbe:
         self._stamps: dict[str, dict[tuple[bytes, int], tuple[int, int]]] = {}
         self._listen_to_stamps()
         self._resumes = self._find_sources()
-        self._factors: dict[str, Question] = {
+        self._factors: dict[str, ParameterQuestion] = {
             name: self._shared.ask(name, [_FACTOR]) for name, _ in self._resumes
         }
         self._reports: dict[str, str] = {}
@@ -88,7 +89,7 @@ class ClockProbe:
         """Whether enough was heard."""
         self._take()
         waited = time.monotonic() - self._began
-        has_answers = all([each.is_answered() for each in self._factors.values()])
+        has_answers = all([each.response is not None for each in self._factors.values()])
         has_stamps = all(self._stamps.values()) or waited > _STAMP_PATIENCE
         if not self._publishers:
             return has_stamps

@@ -22,7 +22,8 @@ from amr_description.doctor.observations.commands import (
 )
 from amr_description.doctor.observations.graph import STAMPED_TWIST, TWIST, VELOCITY_TYPES
 from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.shared import CLOCK_TOPIC, GET_PARAMETERS, Question, shared_of
+from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
+from amr_description.doctor.ros.shared import CLOCK_TOPIC, shared_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import nanoseconds
 
@@ -72,8 +73,8 @@ class CommandProbe:
         """Whether enough was heard."""
         self._take()
         waited = time.monotonic() - self._began
-        answers = [q.is_answered() for found in self._questions.values() for q in found.values()]
-        if not all(answers) and waited < LISTEN:
+        answers = [q.response for found in self._questions.values() for q in found.values()]
+        if None in answers and waited < LISTEN:
             return False
         if any(each.value is None for each in self._locks) and waited < _LOCK_PATIENCE:
             return False
@@ -170,7 +171,7 @@ class CommandProbe:
 
     # --- drives -------------------------------------------------------------------------------
 
-    def _ask(self) -> dict[str, dict[str, Question]]:
+    def _ask(self) -> dict[str, dict[str, ParameterQuestion]]:
         """Ask who subscribes to commands; a parameter that is unknown would spoil the others."""
         services = {name for name, _ in self._node.get_service_names_and_types()}
         nodes = dict.fromkeys(node for each in self._topics for node in each.subscriptions)

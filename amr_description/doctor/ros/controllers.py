@@ -22,7 +22,7 @@ from amr_description.doctor.observations.controllers import (
     Manager,
 )
 from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import ParameterQuestion, Question
+from amr_description.doctor.ros.questions import AllParametersQuestion, question
 from amr_description.doctor.rules.controllers import DRIVE
 
 _LIST = 'controller_manager_msgs/srv/ListControllers'
@@ -92,13 +92,13 @@ class _Asked:
     def __init__(self, node: Node, name: str) -> None:
         self.name = name
         self._node = node
-        self._controllers = Question(node, ListControllers, f'{name}/list_controllers')
-        self._components = Question(
+        self._controllers = question(node, ListControllers, f'{name}/list_controllers')
+        self._components = question(
             node, ListHardwareComponents, f'{name}/list_hardware_components'
         )
-        self._types = Question(node, ListControllerTypes, f'{name}/list_controller_types')
-        self._parameters = ParameterQuestion(node, name)
-        self._drives: dict[str, ParameterQuestion] = {}
+        self._types = question(node, ListControllerTypes, f'{name}/list_controller_types')
+        self._parameters = AllParametersQuestion(node, name)
+        self._drives: dict[str, AllParametersQuestion] = {}
 
     @property
     def has_answered(self) -> bool:
@@ -109,7 +109,7 @@ class _Asked:
         namespace = self.name.rpartition('/')[0]
         for each in controllers.controller:
             if each.type == DRIVE and each.name not in self._drives:
-                drive = ParameterQuestion(self._node, f'{namespace}/{each.name}')
+                drive = AllParametersQuestion(self._node, f'{namespace}/{each.name}')
                 self._drives[each.name] = drive
         values = [each.values for each in self._drives.values()]
         is_known = self._types.response is not None and self._parameters.values is not None

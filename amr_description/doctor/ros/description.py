@@ -11,7 +11,7 @@ from std_msgs.msg import String
 
 from amr_description.doctor.observations.description import Description, DescriptionTopic
 from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import ParameterQuestion
+from amr_description.doctor.ros.questions import ParameterQuestion, parameters_of
 from amr_description.ros.endpoints import endpoint_node
 
 _TYPE = 'std_msgs/msg/String'
@@ -40,7 +40,7 @@ class DescriptionProbe:
         for name, namespace in node.get_node_names_and_namespaces():
             if name == 'robot_state_publisher':
                 full = f'{namespace.rstrip("/")}/{name}'
-                self._asked[full] = ParameterQuestion(node, full, (_NAME,))
+                self._asked[full] = parameters_of(node, full, (_NAME,))
 
     @property
     def is_done(self) -> bool:

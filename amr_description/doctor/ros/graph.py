@@ -19,13 +19,8 @@ from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, Reliabilit
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.doctor.observations.graph import Endpoint, Graph, GraphNode, Qos, Topic
-from amr_description.doctor.ros.shared import (
-    CLOCK_TOPIC,
-    GET_PARAMETERS,
-    Question,
-    Shared,
-    shared_of,
-)
+from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
+from amr_description.doctor.ros.shared import CLOCK_TOPIC, Shared, shared_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.local_participants import local_participants, processes_of
 from amr_description.ros.node_lists import PREFIX
@@ -75,7 +70,7 @@ class GraphProbe:
         self._own = node.get_fully_qualified_name()
         self._shared: Shared = shared_of(node)
         self._began = time.monotonic()
-        self._questions: dict[str, Question] = {}
+        self._questions: dict[str, ParameterQuestion] = {}
         for service, _ in node.get_service_names_and_types():
             name = service.removesuffix(GET_PARAMETERS)
             if name not in (service, self._own) and not _is_hidden(name):
@@ -92,7 +87,7 @@ class GraphProbe:
     def is_done(self) -> bool:
         """Whether all nodes have answered, or have had time to."""
         waited = time.monotonic() - self._began
-        open_ones = [each for each in self._questions.values() if not each.is_answered()]
+        open_ones = [each for each in self._questions.values() if each.response is None]
         if waited > _REACH:
             open_ones = [each for each in open_ones if each.is_reachable()]
         return not open_ones or waited > PATIENCE + _MARGIN
@@ -166,7 +161,7 @@ class GraphProbe:
         )
 
     def _is_silent(
-        self, name: str, question: Question | None, pid: int | None, state: set[str]
+        self, name: str, question: ParameterQuestion | None, pid: int | None, state: set[str]
     ) -> bool:
         if question is None or question.values is not None or question.asked is None:
             return False

@@ -13,6 +13,8 @@ from rclpy.task import Future
 
 from amr_description.ros.service_calls import ServiceReadiness
 
+GET_PARAMETERS = '/get_parameters'
+
 _AGAIN = 0.5
 """s until a question is asked again: a server may throw away its first response to a client that
 it has not discovered yet."""
@@ -25,63 +27,91 @@ _FEWEST_LOOKS = 60
 class Question:
     """A call that is made until it is answered; by being looked at."""
 
-    def __init__(self, node: Node, service_type: Any, service: str, **fields: Any) -> None:
-        self._client: Client = node.create_client(service_type, service)
-        self._is_ready = ServiceReadiness(node, self._client)
-        self._request = service_type.Request(**fields)
+    def __init__(self, client: Client, is_reachable: ServiceReadiness, request: Any) -> None:
+        """``client``: several questions may have one; ``is_reachable``: of it."""
+        self._client = client
+        self._request = request
         self._futures: list[Future] = []
         self._began = time.monotonic()
-        self._asked = self._last = 0.0
-        self._looks = 0
+        self._last = self._began - _AGAIN
         self._response: Any | None = None
+        self.is_reachable = is_reachable
+        """Whether its server is there: what was of a node that has ended stays a moment."""
+        self.asked: float | None = None
+        """When it was asked first, s of the monotonic clock; None: its server is not reached."""
+        self.looks = 0
+        """How often it was looked for an answer, since it was asked if it was."""
 
     @property
     def response(self) -> Any | None:
         """The response; None: none has come yet."""
         if self._response is not None:
             return self._response
-        self._looks += 1
+        self.looks += 1
         for future in self._futures:
             if future.done() and not future.exception():
                 self._response = future.result()
         now = time.monotonic()
-        if now - self._last >= _AGAIN and self._is_ready():
-            self._last, self._asked = now, self._asked or now
+        if self._response is None and now - self._last >= _AGAIN and self.is_reachable():
+            self._last = now
+            if self.asked is None:
+                self.asked, self.looks = now, 1
             self._futures.append(self._client.call_async(self._request))
         return self._response
 
     @property
     def is_silent(self) -> bool:
         """Whether there is no server, or one that has had time to answer and did not."""
-        if self.response is not None or self._looks < _FEWEST_LOOKS:
+        if self.response is not None or self.looks < _FEWEST_LOOKS:
             return False
-        since = self._asked or self._began
+        since = self._began if self.asked is None else self.asked
         return time.monotonic() - since >= _PATIENCE
 
 
-class ParameterQuestion:
-    """All parameters of a node, or some of them by name."""
+def question(node: Node, service_type: Any, service: str, **fields: Any) -> Question:
+    """Make a question with a client of its own; ``fields``: of the request."""
+    client = node.create_client(service_type, service)
+    return Question(client, ServiceReadiness(node, client), service_type.Request(**fields))
 
-    def __init__(self, node: Node, of: str, names: tuple[str, ...] = ()) -> None:
-        """``of``: the node's full name; ``names``: none are all."""
-        self._node, self._of = node, of
-        self._list = None if names else Question(node, ListParameters, f'{of}/list_parameters')
-        self._names, self._values = names, self._ask(names) if names else None
+
+class ParameterQuestion(Question):
+    """Some parameters of a node, by name."""
+
+    def __init__(
+        self, client: Client, is_reachable: ServiceReadiness, names: tuple[str, ...]
+    ) -> None:
+        """``client``: of the service ``get_parameters``."""
+        super().__init__(client, is_reachable, GetParameters.Request(names=names))
+        self._names = names
 
     @property
-    def values(self) -> dict[str, Any] | None:
-        """The values by name; None: they have not come yet."""
-        if self._list is not None and self._values is None:
-            listed = self._list.response
-            if listed is None:
-                return None
-            self._names = tuple(listed.result.names)
-            self._values = self._ask(self._names)
-        response = self._values.response if self._values is not None else None
-        if response is None:
+    def values(self) -> dict[str, object] | None:
+        """Those that the node has; None: they have not come yet."""
+        if (response := self.response) is None:
             return None
-        found = map(parameter_value_to_python, response.values)
-        return {name: each for name, each in zip(self._names, found, strict=False)}
+        found = zip(self._names, response.values, strict=False)
+        values = {name: parameter_value_to_python(value) for name, value in found}
+        return {name: each for name, each in values.items() if each is not None}
 
-    def _ask(self, names: tuple[str, ...]) -> Question:
-        return Question(self._node, GetParameters, f'{self._of}/get_parameters', names=names)
+
+def parameters_of(node: Node, of: str, names: tuple[str, ...]) -> ParameterQuestion:
+    """Make a question for parameters, with a client of its own; ``of``: a node's full name."""
+    client = node.create_client(GetParameters, f'{of}{GET_PARAMETERS}')
+    return ParameterQuestion(client, ServiceReadiness(node, client), names)
+
+
+class AllParametersQuestion:
+    """All parameters of a node."""
+
+    def __init__(self, node: Node, of: str) -> None:
+        """``of``: the node's full name."""
+        self._node, self._of = node, of
+        self._list = question(node, ListParameters, f'{of}/list_parameters')
+        self._values: ParameterQuestion | None = None
+
+    @property
+    def values(self) -> dict[str, object] | None:
+        """The values by name; None: they have not come yet."""
+        if self._values is None and (listed := self._list.response) is not None:
+            self._values = parameters_of(self._node, self._of, tuple(listed.result.names))
+        return self._values.values if self._values is not None else None

@@ -7,70 +7,27 @@ What several probes of one node have in common, so that it is heard and asked on
 """
 
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 import time
 from weakref import WeakKeyDictionary
 
 from rcl_interfaces.srv import GetParameters
 from rclpy.client import Client
 from rclpy.node import Node
-from rclpy.parameter import parameter_value_to_python
-from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 
 from amr_description.doctor.observations.clock import ClockTick
 from amr_description.doctor.ros.heard import HeardTopic
+from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
 from amr_description.ros.messages import nanoseconds
+from amr_description.ros.service_calls import ServiceReadiness
 
 CLOCK_TOPIC = '/clock'
-GET_PARAMETERS = '/get_parameters'
 
 _DEPTH = 200
 """Ticks between two looks."""
-_AGAIN = 0.5
-"""s until a question is asked again: a server may throw away its first response to a client that
-it has not discovered yet."""
 _MOST_TICKS = 20_000
 _SHARED: 'WeakKeyDictionary[Node, Shared]' = WeakKeyDictionary()
-
-
-class Question:
-    """Some parameters of a node, which are asked for until it answers."""
-
-    def __init__(self, client: Client, names: Sequence[str]) -> None:
-        self._client = client
-        self._names = tuple(names)
-        self._futures: list[Future] = []
-        self._last = -_AGAIN
-        self.asked: float | None = None
-        """When it was asked first, s of the monotonic clock; None: its server is not reached."""
-        self.looks = 0
-        """How often it was looked for an answer since."""
-        self.values: dict[str, object] | None = None
-        """The answer: those that the node has."""
-
-    def is_reachable(self) -> bool:
-        """Whether its server is there: what was of a node that has ended stays a moment."""
-        return self._client.service_is_ready()
-
-    def is_answered(self) -> bool:
-        """Take an answer, or ask again; return whether there is one."""
-        if self.values is not None:
-            return True
-        for future in self._futures:
-            if future.done() and (response := future.result()) is not None:
-                found = zip(self._names, response.values, strict=False)
-                values = {name: parameter_value_to_python(value) for name, value in found}
-                self.values = {name: each for name, each in values.items() if each is not None}
-                return True
-        now = time.monotonic()
-        if now - self._last >= _AGAIN and self._client.service_is_ready():
-            self._last = now
-            self.asked = self.asked or now
-            request = GetParameters.Request(names=self._names)
-            self._futures.append(self._client.call_async(request))
-        self.looks += self.asked is not None
-        return False
 
 
 class Shared:
@@ -78,22 +35,23 @@ class Shared:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._clients: dict[str, Client] = {}
-        self._questions: dict[tuple[str, tuple[str, ...]], Question] = {}
+        self._clients: dict[str, tuple[Client, ServiceReadiness]] = {}
+        self._questions: dict[tuple[str, tuple[str, ...]], ParameterQuestion] = {}
         self._clock: HeardTopic | None = None
         self._matched: float | None = None
         self._users = 0
         self.ticks: list[ClockTick] = []
         """What :meth:`hear` has taken of ``/clock``."""
 
-    def ask(self, node: str, names: Iterable[str]) -> Question:
+    def ask(self, node: str, names: Iterable[str]) -> ParameterQuestion:
         """Return a question to a node, by its full name; it is asked by being looked at."""
         key = node, tuple(names)
         if key not in self._questions:
             if node not in self._clients:
                 service = f'{node}{GET_PARAMETERS}'
-                self._clients[node] = self._node.create_client(GetParameters, service)
-            self._questions[key] = Question(self._clients[node], key[1])
+                client = self._node.create_client(GetParameters, service)
+                self._clients[node] = client, ServiceReadiness(self._node, client)
+            self._questions[key] = ParameterQuestion(*self._clients[node], key[1])
         return self._questions[key]
 
     def listen(self) -> None:
@@ -131,7 +89,7 @@ class Shared:
         self._users -= 1
         if self._users:
             return
-        for client in self._clients.values():
+        for client, _ in self._clients.values():
             self._node.destroy_client(client)
         if self._clock is not None:
             self._clock.destroy()
