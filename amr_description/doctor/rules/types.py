@@ -9,7 +9,6 @@ from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.graph import (
     Endpoint,
     STAMPED_TWIST,
-    Topic,
     VELOCITY_TYPES,
 )
 from amr_description.doctor.rules.wording import names_of, short_type
@@ -18,7 +17,8 @@ from amr_description.doctor.rules.wording import names_of, short_type
 def mismatched_types(seen: Observations) -> Iterator[Finding]:
     """Publishers and subscriptions of one topic with other types: nothing arrives."""
     for topic in seen.graph.topics if seen.graph else ():
-        deaf, mute = _deaf(topic), _mute(topic)
+        deaf = _unmatched(topic.subscriptions, topic.publishers)
+        mute = _unmatched(topic.publishers, topic.subscriptions)
         if not deaf and not mute:
             continue
         subscriptions = deaf or [
@@ -60,31 +60,14 @@ def mismatched_definitions(seen: Observations) -> Iterator[Finding]:
             )
 
 
-def _deaf(topic: Topic) -> list[Endpoint]:
-    """Return the subscriptions whose node gets nothing, as all publish another type."""
-    if not topic.publishers:
+def _unmatched(ends: Sequence[Endpoint], others: Sequence[Endpoint]) -> list[Endpoint]:
+    """Return the endpoints of nodes that no other one reaches, as all have another type."""
+    if not others:
         return []
-    offered = {each.type_name for each in topic.publishers}
-    served = {each.node for each in topic.subscriptions if each.type_name in offered}
-    return [
-        each
-        for each in topic.subscriptions
-        # One with a subscription of each type follows its publishers.
-        if each.type_name not in offered and each.node not in served
-    ]
-
-
-def _mute(topic: Topic) -> list[Endpoint]:
-    """Return the publishers that nobody hears, as all subscribe to another type."""
-    if not topic.subscriptions:
-        return []
-    wanted = {each.type_name for each in topic.subscriptions}
-    heard = {each.node for each in topic.publishers if each.type_name in wanted}
-    return [
-        each
-        for each in topic.publishers
-        if each.type_name not in wanted and each.node not in heard
-    ]
+    types = {each.type_name for each in others}
+    # A node with an endpoint of each type follows the others.
+    reached = {each.node for each in ends if each.type_name in types}
+    return [each for each in ends if each.type_name not in types and each.node not in reached]
 
 
 def _type_fix(topic: str, publishers: Sequence[Endpoint], offered: str, wanted: str) -> str:
