@@ -30,6 +30,7 @@ from amr_description.ros.arguments import read_description, split_arguments
 from amr_description.ros.node_help import DESCRIPTION, print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import run
+from amr_description.ros.service_calls import ServiceReadiness
 
 _PERIOD = 0.3
 """s between two looks at the files."""
@@ -69,6 +70,7 @@ class DescriptionWatcher(Node):
         self._saved = self._look()
         self._changing = self._saved
         self._client = self.create_client(SetParameters, f'{settings.publisher}/set_parameters')
+        self._is_ready = ServiceReadiness(self, self._client)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_PERIOD, self._compare, clock=steady)
         self.get_logger().info(f'watching {", ".join(sorted(self._saved))}')
@@ -83,6 +85,7 @@ class DescriptionWatcher(Node):
 
     def _compare(self) -> None:
         """Read the files again when one has changed, and is not being written any more."""
+        self._is_ready()  # it has to be looked for before it is needed
         now = self._look()
         if now != self._changing:
             self._changing = now
@@ -100,7 +103,7 @@ class DescriptionWatcher(Node):
             return
         self._text = text
         self._saved = self._changing = self._look()  # it may include other files now
-        if not self._client.service_is_ready():
+        if not self._is_ready():
             self.get_logger().warning(
                 f'nobody is told: there is no service {self._client.srv_name}; is '
                 'robot_state_publisher running?'

@@ -5,7 +5,7 @@
 from collections.abc import Callable
 import re
 import time
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 import rclpy
 from rclpy.client import Client
@@ -16,6 +16,9 @@ from amr_description.errors import AmrError
 from amr_description.ros.message_types import type_name
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.wait_clock import WaitClock
+
+if TYPE_CHECKING:
+    from rclpy.action import ActionClient
 
 _POLL = 0.05
 """s: how soon a change of the graph is seen; messages and responses are seen at once."""
@@ -45,24 +48,25 @@ class NoAnswerError(AmrError):
     """A service did not answer in time."""
 
 
-class ServiceReadiness:
+class _Readiness:
     """
-    Whether the server of a client is there, so that a request would be answered.
+    Tells whether the server of a client is there, so that a request would be answered.
 
     rmw_fastrtps 8.4 counts the servers that a client has found by changes of one. Where one server
     comes while another of the same name goes, as when a node is started anew, the two changes are
     reported together, as none: ``client.service_is_ready()`` is false from then on, though each
-    request would be answered. So a service that has been in the graph for 2 s is taken as ready.
+    request would be answered. So a service that has been in the graph for 2 s is taken as ready,
+    counted from the first look that has found it: who asks seldom looks in between.
     """
 
-    def __init__(self, node: Node, client: Client) -> None:
-        """``client``: of ``node``."""
-        self._node, self._client = node, client
+    def __init__(self, is_matched: Callable[[], bool], is_offered: Callable[[], bool]) -> None:
+        """``is_matched``: as rmw says; ``is_offered``: by the graph."""
+        self._is_matched, self._is_offered = is_matched, is_offered
         self._present_since: float | None = None
 
     def __call__(self) -> bool:
         """Return whether it is there now."""
-        if self._client.service_is_ready():
+        if self._is_matched():
             return True
         if not self._is_offered():
             self._present_since = None
@@ -72,16 +76,36 @@ class ServiceReadiness:
             self._present_since = now
         return now - self._present_since >= _MATCHED_BY
 
-    def _is_offered(self) -> bool:
-        """Whether somebody has the service, and not of another type: that one will not answer."""
-        if not self._node.count_services(self._client.srv_name):
-            return False
-        # By the topic of the responses, as DDS names it: that of requests has the clients' type.
-        topic = f'rr{self._client.srv_name}Reply'
-        package, kind, name = type_name(self._client.srv_type).split('/')
-        wanted = f'{package}::{kind}::dds_::{name}_Response_'
-        servers = self._node.get_publishers_info_by_topic(topic, no_mangle=True)
-        return not servers or any(each.topic_type == wanted for each in servers)
+
+class ServiceReadiness(_Readiness):
+    """Of a service."""
+
+    def __init__(self, node: Node, client: Client) -> None:
+        """``client``: of ``node``."""
+        super().__init__(
+            client.service_is_ready, lambda: _is_offered(node, client.srv_name, client.srv_type)
+        )
+
+
+class ActionReadiness(_Readiness):
+    """Of an action: its client is ready when those of its three services are."""
+
+    def __init__(self, node: Node, client: 'ActionClient', action_type: Any, action: str) -> None:
+        """``client``: of ``node``, of the type and the name."""
+        service = node.resolve_service_name(f'{action}/_action/send_goal')
+        send_goal = action_type.Impl.SendGoalService
+        super().__init__(client.server_is_ready, lambda: _is_offered(node, service, send_goal))
+
+
+def _is_offered(node: Node, service: str, service_type: Any) -> bool:
+    """Whether somebody has the service, and not of another type: that one will not answer."""
+    if not node.count_services(service):
+        return False
+    # By the topic of the responses, as DDS names it: that of requests has the clients' type.
+    package, kind, name = type_name(service_type).split('/')
+    wanted = f'{package}::{kind}::dds_::{name}_Response_'
+    servers = node.get_publishers_info_by_topic(f'rr{service}Reply', no_mangle=True)
+    return not servers or any(each.topic_type == wanted for each in servers)
 
 
 def client_node(name: str) -> Node:

@@ -14,6 +14,7 @@ from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.topic_filter import EVENT_TYPE
 from amr_description.bag.topic_selection import event_topic
 from amr_description.ros.message_types import service_type
+from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.text import shorten
 
 SOURCES = {
@@ -31,7 +32,7 @@ class ServiceRequests:
         self._node = node
         self._log = node.get_logger()
         self._event = SOURCES.get(source)
-        self._clients: dict[str, tuple[Client, Any]] = {}
+        self._clients: dict[str, tuple[Client, ServiceReadiness, Any]] = {}
         self._told: set[str] = set()
         self._sent: list[Future] = []
 
@@ -39,13 +40,14 @@ class ServiceRequests:
         """Make the client for the topic of a service's events. Raises AmrError: its type."""
         kind = service_type(topic.type.removesuffix(EVENT_TYPE))
         name = topic.name.removesuffix(event_topic(''))
-        self._clients[topic.name] = self._node.create_client(kind, name), kind
+        client = self._node.create_client(kind, name)
+        self._clients[topic.name] = client, ServiceReadiness(self._node, client), kind
 
     def send(self, message: BagMessage) -> bool:
         """Send the request of an event; return False if it has none that is to be sent."""
         if message.topic not in self._clients:
             return False
-        client, kind = self._clients[message.topic]
+        client, is_ready, kind = self._clients[message.topic]
         try:
             event = deserialize_message(message.data, kind.Event)
         except RuntimeError as error:
@@ -64,7 +66,7 @@ class ServiceRequests:
                 f"'{client.srv_name}' was metadata only!",
             )
             return False
-        if not client.service_is_ready():
+        if not is_ready():
             self._log.error(
                 f"Service request hasn't been sent. The '{client.srv_name}' service isn't ready !"
             )

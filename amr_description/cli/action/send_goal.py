@@ -73,6 +73,7 @@ def main(args: Namespace) -> int:
     from amr_description.cli.yaml_input import read_value
     from amr_description.ros.message_fields import set_fields
     from amr_description.ros.message_types import action_type
+    from amr_description.ros.service_calls import ActionReadiness
 
     action_class = action_type(args.action_type)
     goal = action_class.Goal()
@@ -81,7 +82,8 @@ def main(args: Namespace) -> int:
         name = full_name(session.node, args.action_name, 'an action')
         client = ActionClient(session.node, action_class, name)
         print('Waiting for an action server to become available...')
-        if not is_there_within(session, client.server_is_ready, args.timeout):
+        is_ready = ActionReadiness(session.node, client, action_class, name)
+        if not is_there_within(session, is_ready, args.timeout):
             raise AmrError(
                 f'Action server is not available after waiting {args.timeout:g} seconds.'
             )

@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy.client import Client
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from simulation_interfaces.msg import EntityCategory, Result
 from simulation_interfaces.srv import GetEntities, SetEntityState
@@ -13,6 +15,10 @@ from simulation_interfaces.srv import GetEntities, SetEntityState
 from amr_description.model.frames import Transform
 from amr_description.navigation.ros.localizer import listed
 from amr_description.ros.messages import fill_pose
+from amr_description.ros.service_calls import ServiceReadiness
+
+_LOOK_PERIOD = 1.0
+"""s"""
 
 
 class EntityMover:
@@ -34,11 +40,19 @@ class EntityMover:
         name = simulator.rstrip('/')
         self._entities = node.create_client(GetEntities, f'{name}/get_entities')
         self._set_state = node.create_client(SetEntityState, f'{name}/set_entity_state')
+        clients = self._entities, self._set_state
+        self._ready = {client: ServiceReadiness(node, client) for client in clients}
+        node.create_timer(_LOOK_PERIOD, self._look, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    def _look(self) -> None:
+        """Look for the simulator before it is needed: it may have been started anew."""
+        for is_ready in self._ready.values():
+            is_ready()
 
     def move(self, pose: Transform) -> None:
         """Have the robot stand with its root link at a pose of the world; return at once."""
-        for client in (self._entities, self._set_state):
-            if not client.service_is_ready():
+        for client, is_ready in self._ready.items():
+            if not is_ready():
                 self._logger.warning(
                     f'the robot stays where it is: no simulator serves {client.service_name}. '
                     "The parameter 'simulator' names its node; with set_entity_state:=false the "

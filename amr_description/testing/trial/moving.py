@@ -22,6 +22,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from amr_description.errors import AmrError
 from amr_description.model.robot import Joint, JointType
+from amr_description.ros.service_calls import ActionReadiness
 from amr_description.testing.lock_step import LatestMessage
 from amr_description.testing.readings import Joint as State, joints_of
 from amr_description.testing.simulation import Simulation
@@ -168,7 +169,8 @@ class Mover:
             goal.command = JointState(name=[joint], position=[target])
         client = ActionClient(node, kind, name)
         try:
-            self._sim.wait(client.server_is_ready, f"the server of '{name}'")
+            is_ready = ActionReadiness(node, client, kind, name)
+            self._sim.wait(is_ready, f"the server of '{name}'")
             handle = self._finished(client.send_goal_async(goal), 'the answer to the goal')
             if not handle.accepted:
                 return MotionResult(

@@ -31,6 +31,7 @@ from amr_description.model.frames import Transform
 from amr_description.ros.message_types import action_type
 from amr_description.ros.messages import fill_pose, fill_stamp
 from amr_description.ros.rclpy_internals import RCLError
+from amr_description.ros.service_calls import ActionReadiness
 from amr_description.text import shorten
 from amr_description.viewer.graph import NAVIGATE
 from amr_description.viewer.navigation import GoalStatus, Navigator
@@ -54,6 +55,8 @@ class _Ends:
         self.goal: Publisher | None = None
         self.initial_pose: Publisher | None = None
         self.action: ActionClient | None = None
+        self.is_ready: ActionReadiness | None = None
+        """Whether the server of the action is there."""
         self._node = node
         if navigator.goal is not None:
             self.goal = node.create_publisher(PoseStamped, navigator.goal, 10)
@@ -62,7 +65,9 @@ class _Ends:
                 PoseWithCovarianceStamped, navigator.initial_pose, 10
             )
         if navigator.action is not None:
-            self.action = ActionClient(node, action_type(NAVIGATE), navigator.action)
+            kind = action_type(NAVIGATE)
+            self.action = ActionClient(node, kind, navigator.action)
+            self.is_ready = ActionReadiness(node, self.action, kind, navigator.action)
 
     def destroy(self) -> None:
         for publisher in (self.goal, self.initial_pose):
@@ -133,6 +138,9 @@ class Goals:
             else _Ends(self._node, each)
             for each in usable
         }
+        for ends in self._ends.values():
+            if ends.is_ready is not None:
+                ends.is_ready()  # it has to be looked for before it is needed
         self.navigators = usable
         for robot, ends in before.items():
             if self._ends.get(robot) is not ends:
@@ -149,7 +157,7 @@ class Goals:
         pose.header.frame_id = self._frame(request)
         place = (request.frame, request.x, request.y, request.yaw)
         where = f'x {request.x:.2f} m, y {request.y:.2f} m in {pose.header.frame_id}'
-        if ends.action is not None and ends.action.server_is_ready():
+        if ends.action is not None and ends.is_ready is not None and ends.is_ready():
             status = GoalStatus(request.robot, page, 'active', *place)
             self._node.get_logger().info(f'{page} sends {request.robot} to {where}')
             await self._pursue(_Goal(status, ends.navigator.action or ''), ends.action, pose)

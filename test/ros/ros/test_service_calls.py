@@ -6,8 +6,10 @@ from contextlib import ExitStack
 from random import Random
 import time
 
+from example_interfaces.action import Fibonacci
 import pytest
 import rclpy
+from rclpy.action import ActionClient, ActionServer
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -17,9 +19,11 @@ from std_srvs.srv import SetBool, Trigger
 from support.manager_host import ros_in_this_process
 from support.ros_processes import PATIENCE
 from support.serving import serving
+from tf2_msgs.action import LookupTransform
 
 from amr_description.ros import service_calls
 from amr_description.ros.service_calls import (
+    ActionReadiness,
     ask_until_answered,
     call,
     call_with,
@@ -169,6 +173,24 @@ def test_a_client_that_is_never_ready_calls_what_is_in_the_graph(server, caller,
     assert not is_ready()
     server.answer.set_result('here')
     assert call_with(caller, client, Trigger.Request(), timeout=PATIENCE).message == 'here'
+
+
+def test_a_client_of_an_action_that_is_never_ready_sends_goals_to_what_is_there(
+    server, caller, monkeypatch
+):
+    monkeypatch.setattr(service_calls, '_MATCHED_BY', 0.2)
+    action = ActionServer(server, Fibonacci, 'look', lambda _: Fibonacci.Result())
+    client = ActionClient(caller, Fibonacci, '/look')
+    wait_until(caller, lambda: client.server_is_ready() or None, timeout=PATIENCE)
+    monkeypatch.setattr(client, 'server_is_ready', lambda: False)
+    is_ready = ActionReadiness(caller, client, Fibonacci, '/look')
+    assert not is_ready()
+    assert wait_until(caller, lambda: is_ready() or None, timeout=PATIENCE)
+    assert not ActionReadiness(caller, client, Fibonacci, '/hear')()
+    monkeypatch.setattr(service_calls, '_MATCHED_BY', 0.0)
+    assert not ActionReadiness(caller, client, LookupTransform, '/look')()
+    client.destroy()
+    action.destroy()
 
 
 def test_a_service_of_another_type_is_not_ready(server, monkeypatch):

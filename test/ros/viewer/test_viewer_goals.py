@@ -17,6 +17,7 @@ from support.ros_processes import PATIENCE
 from support.serving import serving
 
 from amr_description.errors import ViewerError
+from amr_description.ros import service_calls
 from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.requests import SetGoal, SetInitialPose
 from amr_description.viewer.ros import goals
@@ -131,6 +132,13 @@ def test_a_goal_that_fails_says_why(graph):
     graph.give()
     graph.server.ends.set()
     assert graph.is_told(state='failed').text
+
+
+def test_a_server_that_is_there_is_asked_though_its_client_is_never_ready(graph, monkeypatch):
+    """As after a new start of the navigation; see service_calls."""
+    monkeypatch.setattr(service_calls, '_MATCHED_BY', 0.0)
+    monkeypatch.setattr(graph.goals._ends['/a'].is_ready, '_is_matched', lambda: False)
+    assert graph.give().startswith('/a/navigate_to_pose has accepted')
 
 
 def test_a_goal_is_cancelled(graph):

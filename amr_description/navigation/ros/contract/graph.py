@@ -15,6 +15,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.navigation.contract.observations import Endpoint, Topic
 from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.ros.type_mismatch import other_topics
 
 _USE_SIM_TIME = 'use_sim_time'
@@ -73,6 +74,7 @@ class ParameterReader:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[str, Client] = {}
+        self._is_ready: dict[str, ServiceReadiness] = {}
         self._pending: list[tuple[str, tuple[str, ...], Future]] = []
         self._unasked: set[str] = set()
         self._found: dict[str, float] = {}
@@ -87,9 +89,10 @@ class ParameterReader:
             if name in (service, own) or is_hidden or name in self._clients:
                 continue
             self._clients[name] = self._node.create_client(GetParameters, service)
+            self._is_ready[name] = ServiceReadiness(self._node, self._clients[name])
             self._unasked.add(name)
             self._found[name] = time.monotonic()
-        for name in [each for each in self._unasked if self._clients[each].service_is_ready()]:
+        for name in [each for each in self._unasked if self._is_ready[each]()]:
             self._unasked.remove(name)
             for parameters in ((_USE_SIM_TIME,), *_asked_of(name)):
                 request = GetParameters.Request(names=parameters)
