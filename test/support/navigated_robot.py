@@ -9,7 +9,6 @@ so that one who takes the one for the other is found out.
 
 from math import pi
 import threading
-import time
 
 from fixtures.sim.driving import AMR
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped, TransformStamped
@@ -149,15 +148,6 @@ class Navigating:
         self._service.__exit__(None, None, None)
         self.robot.destroy_node()
         self._context.try_shutdown()
-
-
-def until(condition):
-    """Wait until a condition is true, and return what it returned."""
-    deadline = time.monotonic() + PATIENCE
-    while not (found := condition()):
-        assert time.monotonic() < deadline, 'waited in vain'
-        time.sleep(0.01)
-    return found
 
 
 def transform(parent, child, place):

@@ -73,11 +73,3 @@ def descriptors():
 def drive(rig, board, left=5.0, right=-3.0):
     rig.command(left, right)
     rig.turn_until(lambda: rig.state('velocity') == (left, right), board)
-
-
-def wait_until(condition):
-    deadline = time.monotonic() + PATIENCE
-    tick = threading.Event()
-    while not condition():
-        assert time.monotonic() < deadline
-        tick.wait(0.005)

@@ -6,7 +6,8 @@ import pytest
 import serial
 from support.control_fakes import MS
 from support.motor_boards import BoardOnPty
-from support.serial_rig import drive, Rig, threads, wait_until
+from support.serial_rig import drive, Rig, threads
+from support.waiting import until
 
 from amr_description.errors import HardwareError
 
@@ -38,7 +39,7 @@ def test_unplugged(rig, board, plugged):
 
 def test_a_lost_board_cannot_be_written(rig, board, plugged):
     plugged.unplug()
-    wait_until(lambda: rig.system._board.is_lost)
+    until(lambda: rig.system._board.is_lost)
     with pytest.raises(HardwareError, match='is gone, as if it were unplugged'):
         rig.system.write(0, 10 * MS)
 

@@ -18,7 +18,8 @@ import pytest
 import serial
 from support.control_fakes import FakeLog, MS
 from support.motor_boards import BoardOnPty, on_motor_board, SIDES, TamperedBoard
-from support.serial_rig import descriptors, drive, PATIENCE, Rig, threads, wait_until
+from support.serial_rig import descriptors, drive, PATIENCE, Rig, threads
+from support.waiting import until
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareDeactivationError, HardwareError
@@ -194,7 +195,7 @@ def test_answers_to_an_earlier_host_are_ignored(plugged, board):
     with Path(plugged.port).open('wb') as earlier:
         for _ in range(100):
             earlier.write(encode(Hello(1, 1)) + encode(Get(1)))
-    wait_until(lambda: len(received(board)) == 200)
+    until(lambda: len(received(board)) == 200)
     board.left.position = 1000.0
     rig = Rig(plugged.port)
     rig.system.configure()
@@ -311,7 +312,7 @@ def test_a_command_from_before_an_arm_moves_nothing_after_it(rig, board):
     rig.system.deactivate()
     rig.system.activate()
     armed_at = board._uptime
-    wait_until(lambda: board._uptime > armed_at + 0.1)  # a lost answer is given up after 50 ms
+    until(lambda: board._uptime > armed_at + 0.1)  # a lost answer is given up after 50 ms
     assert [type(message) for message in received(board)][-2:] == [Disarm, Arm]
 
 
@@ -381,7 +382,7 @@ def test_a_control_thread_that_hangs_is_stopped_by_the_watchdog_and_may_go_on(pl
     rig = Rig(plugged.port, watchdog_timeout=0.05)
     rig.start()
     drive(rig, board)
-    wait_until(lambda: board.mode is BoardMode.TIMEOUT)
+    until(lambda: board.mode is BoardMode.TIMEOUT)
     assert board.left.target == 0.0
     drive(rig, board)
     rig.system.cleanup()

@@ -19,6 +19,7 @@ from std_srvs.srv import SetBool, Trigger
 from support.manager_host import ros_in_this_process
 from support.ros_processes import PATIENCE
 from support.serving import serving
+from support.waiting import until
 from tf2_msgs.action import LookupTransform
 
 from amr_description.ros import service_calls
@@ -199,10 +200,7 @@ def test_a_service_of_another_type_is_not_ready(server, monkeypatch):
     rclpy.init(args=[], context=context)
     node = Node('other', context=context)
     client = node.create_client(SetBool, '/slow')
-    deadline = time.monotonic() + PATIENCE
-    while not node.count_services('/slow'):
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    until(lambda: node.count_services('/slow'))
     assert not ServiceReadiness(node, client)()
     node.destroy_node()
     context.try_shutdown()

@@ -311,7 +311,8 @@ def test_what_a_slow_disk_has_not_taken_in_time_is_counted_and_the_bag_is_comple
     assert line.startswith('1 messages were not recorded')
 
 
-def test_in_real_time_what_has_no_room_is_counted_and_said(host, monkeypatch):
+def held_disk(monkeypatch):
+    """Have bags written as soon as the event is set that is returned."""
     may_write, write = threading.Event(), BagWriter.write
 
     def write_slowly(self, message):
@@ -319,6 +320,11 @@ def test_in_real_time_what_has_no_room_is_counted_and_said(host, monkeypatch):
         write(self, message)
 
     monkeypatch.setattr(BagWriter, 'write', write_slowly)
+    return may_write
+
+
+def test_in_real_time_what_has_no_room_is_counted_and_said(host, monkeypatch):
+    may_write = held_disk(monkeypatch)
     host.is_paced = True
     host.record(exclude_regex=re.compile('/clock'), most_queued=0)
     host.cycle(10, 'a')
@@ -340,13 +346,7 @@ def test_in_real_time_what_has_no_room_is_counted_and_said(host, monkeypatch):
 
 
 def test_memory_is_bounded_for_many_small_messages_too(host, monkeypatch):
-    may_write, write = threading.Event(), BagWriter.write
-
-    def write_slowly(self, message):
-        assert may_write.wait(PATIENCE)
-        write(self, message)
-
-    monkeypatch.setattr(BagWriter, 'write', write_slowly)
+    may_write = held_disk(monkeypatch)
     host.is_paced = True
     host.record(regex=re.compile('/said'), most_queued=10 * OVERHEAD)
     for time in range(10, 500, 10):

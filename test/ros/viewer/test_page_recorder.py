@@ -12,7 +12,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
-from support.serial_rig import wait_until
+from support.waiting import until
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
@@ -61,11 +61,11 @@ def test_while_a_bag_is_completed_the_ros_thread_is_free(node, tmp_path, monkeyp
 
         async def record():
             await recorder.handle(StartRecording(1, ('/chatter',)))
-            await asyncio.to_thread(wait_until, publisher.get_subscription_count)
+            await asyncio.to_thread(until, publisher.get_subscription_count)
             publisher.publish(String(data='hello'))
             assert await asyncio.to_thread(is_written.wait, PATIENCE)
             stopping = asyncio.create_task(recorder.handle(StopRecording(2)))
-            await asyncio.to_thread(wait_until, lambda: not publisher.get_subscription_count())
+            await asyncio.to_thread(until, lambda: not publisher.get_subscription_count())
             assert await on_ros_thread(executor, lambda: 'free') == 'free'
             with pytest.raises(ViewerError, match='is still being written'):
                 await recorder.handle(StartRecording(3, ()))

@@ -15,6 +15,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import Image, JointState
 from std_msgs.msg import Float64, Header, String
 from support.ros_processes import PATIENCE
+from support.waiting import until
 
 from amr_description.viewer.backend import Watched
 from amr_description.viewer.ros.topic_feeds import TopicFeeds
@@ -57,15 +58,6 @@ def show(feeds, publisher, watched):
     """Watch, and wait until the publisher has a subscription."""
     feeds.watch(watched)
     until(lambda: publisher.get_subscription_count() or feeds.refresh())
-
-
-def until(condition):
-    """Wait for a condition, and return what it returned."""
-    end = time.monotonic() + PATIENCE
-    while not (found := condition()):
-        assert time.monotonic() < end
-        time.sleep(0.001)
-    return found
 
 
 def taken(feeds, channel, topic='/a'):

@@ -12,9 +12,10 @@ import pytest
 from rclpy.context import Context
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
-from support.navigated_robot import NavigationServer, until
+from support.navigated_robot import NavigationServer
 from support.ros_processes import PATIENCE
 from support.serving import serving
+from support.waiting import until
 
 from amr_description.errors import ViewerError
 from amr_description.ros import service_calls

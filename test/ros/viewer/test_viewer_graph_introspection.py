@@ -14,6 +14,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Float64
+from support import waiting
 from support.ros_processes import PATIENCE
 from support.serving import serving
 from tf2_msgs.msg import TFMessage
@@ -67,14 +68,12 @@ def shown(ros):
 
 def until(introspection, told, condition):
     """Poll until a message of those told makes a condition true; return that."""
-    end = time.monotonic() + PATIENCE
-    while True:
+
+    def found():
         introspection.poll()
-        for _, message in reversed(told):
-            if found := condition(message):
-                return found
-        assert time.monotonic() < end, told[-1:]
-        time.sleep(0.01)
+        return next(filter(None, (condition(message) for _, message in reversed(told))), None)
+
+    return waiting.until(found, shown=lambda: told[-1:])
 
 
 def test_topics_are_listed_by_nodes_with_qos_and_rates(ros, shown):
@@ -151,11 +150,7 @@ def test_warnings_are_kept_and_all_lines_are_told_to_who_looks(ros, shown):
     other.get_logger().info('all is well')
     other.get_logger().warning('<b>the wheel</b> slips')
 
-    end = time.monotonic() + PATIENCE
-    while not introspection.latest('log').lines:
-        introspection.poll()
-        assert time.monotonic() < end
-        time.sleep(0.01)
+    waiting.until(lambda: introspection.poll() or introspection.latest('log').lines)
     assert told == []
     (kept,) = [each for each in introspection.latest('log').lines if 'slips' in each.text]
     assert (kept.level, kept.node) == ('warning', 'robot1.other')

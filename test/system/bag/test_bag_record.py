@@ -12,7 +12,8 @@ import time
 from fixtures.cli.commands import environment, ros2, started
 import pytest
 from rosbags.highlevel import AnyReader
-from support.running_programs import PATIENCE, Program
+from support.running_programs import Program
+from support.waiting import until
 
 from amr_description.bag.reader import BagReader
 
@@ -76,7 +77,7 @@ def test_what_ends_suddenly_plays(tmp_path, signum):
     with recording('--all', '-o', bag, *words) as program:
         program.expect(r"\[scribe\]: Subscribed to topic '/chatter'")
         assert 'Press SPACE' not in program.output
-        wait_for(lambda: count(bag) > 0)
+        until(lambda: count(bag) > 0, every=0.05)
         code = program.end(signum)
     assert code == (0 if signum == signal.SIGTERM else -signal.SIGKILL)
     assert (bag / 'metadata.yaml').exists() == (signum == signal.SIGTERM)
@@ -159,10 +160,3 @@ def test_full_disk_is_one_line_and_what_was_written_plays(tmp_path):
         assert 'Traceback' not in program.output
         assert 'Recording' not in program.output
     assert count(bag) > 0
-
-
-def wait_for(condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)

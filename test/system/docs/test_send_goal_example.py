@@ -7,9 +7,10 @@ import signal
 import sys
 
 from action_msgs.msg import GoalStatus
-from support.navigated_robot import Navigating, NavigationServer, until
+from support.navigated_robot import Navigating, NavigationServer
 from support.paths import ROOT
 from support.running_programs import Program
+from support.waiting import until
 
 EXAMPLE = str(ROOT / 'examples/send_goal.py')
 

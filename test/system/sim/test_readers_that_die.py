@@ -11,8 +11,8 @@ import time
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from support.navigated_robot import until
 from support.ros_processes import PATIENCE
+from support.waiting import until
 
 from amr_description.bringup.guardian import remove_unused_segments
 from amr_description.ros.runtime import ros, spinning

@@ -17,8 +17,8 @@ from support.navigated_robot import (
     Navigating,
     NavigationServer,
     path,
-    until,
 )
+from support.waiting import until
 from test_page_in_browser import serving, url_of
 
 from amr_description.model.frames import yaw_of
