@@ -120,8 +120,7 @@ class Costmap:
     def cells_of(self, points: Points) -> NDArray[np.intp]:
         """Return (n, 2) row and column of points (n, 2) of the map frame; maybe outside."""
         corner = (self.grid.origin.x, self.grid.origin.y)
-        cells: NDArray[np.intp] = np.floor((points - corner) / self.resolution).astype(np.intp)
-        return cells[:, ::-1]
+        return self._indices(points - corner)[:, ::-1]
 
     def cost_at(self, x: float, y: float) -> int:
         """Return the cost of a point of the map frame; NO_INFORMATION outside."""
@@ -165,8 +164,7 @@ class Costmap:
         self._clear_rays(obstacles, sensor, directions, np.minimum(passed, limit))
         marked = is_hit & (ranges <= self.settings.obstacle_max_range)
         ends = (sensor.x, sensor.y) + directions[marked] * ranges[marked][:, None]
-        rows, columns = self._inside(self.cells_of(ends))
-        obstacles[rows, columns] = True
+        obstacles[self._inside(*self.cells_of(ends).T)] = True
         self._change(obstacles)
 
     def _clear_rays(
@@ -180,14 +178,22 @@ class Costmap:
         longest = float(lengths.max(initial=0.0))
         steps = np.arange(math.ceil(longest / (0.5 * self.resolution))) * 0.5 * self.resolution
         reach = steps[None, :] < lengths[:, None]
-        points = (sensor.x, sensor.y) + directions[:, None, :] * steps[None, :, None]
-        rows, columns = self._inside(self.cells_of(points[reach]))
-        obstacles[rows, columns] = False
+        # x and y apart: pairs of them take numpy three times as long, ten times a second.
+        x = (sensor.x + directions[:, :1] * steps)[reach]
+        y = (sensor.y + directions[:, 1:] * steps)[reach]
+        origin = self.grid.origin
+        inside = self._inside(self._indices(y - origin.y), self._indices(x - origin.x))
+        obstacles[inside] = False
 
-    def _inside(self, cells: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def _indices(self, lengths: NDArray[np.float64]) -> NDArray[np.intp]:
+        indices: NDArray[np.intp] = np.floor(lengths / self.resolution).astype(np.intp)
+        return indices
+
+    def _inside(
+        self, rows: NDArray[np.intp], columns: NDArray[np.intp]
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Return rows and columns of those cells that the map has."""
         height, width = self._static.shape
-        rows, columns = cells.T
         held = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
         return rows[held], columns[held]
 

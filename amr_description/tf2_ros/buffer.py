@@ -257,11 +257,12 @@ class Buffer:
         with self._changed:
             waiting = []
             for lookup, future in self._awaited:
+                if future.cancelled():
+                    continue
                 try:
                     found.append((future, lookup(self._core)))
                 except TransformException:
-                    if not future.cancelled():
-                        waiting.append((lookup, future))
+                    waiting.append((lookup, future))
             self._awaited = waiting
         for future, transform in found:
             future.set_result(transform)

@@ -18,7 +18,11 @@ from amr_description.tf2_ros.buffer import Buffer
 
 
 class TransformQueue[Item]:
-    """A queue in front of a callback, which gets each item with its transform, in their order."""
+    """
+    A queue in front of a callback, which gets each item with its transform, in their order.
+
+    An item that still waits when a later one has its transform is dropped.
+    """
 
     def __init__(
         self, buffer: Buffer, handle: Callable[[Item, TransformStamped], object], depth: int
@@ -62,5 +66,8 @@ class TransformQueue[Item]:
 
     def _on_done(self, future: Future, item: Item) -> None:
         if not future.cancelled():
-            self._waiting.remove(future)
+            # What came before it would be out of order; its transform is of before all that is
+            # known, and each new transform would be tried in vain for it.
+            while (earlier := self._waiting.popleft()) is not future:
+                earlier.cancel()
             self._handle(item, future.result())
