@@ -223,3 +223,43 @@ def test_what_a_test_of_robots_starts_is_forked_too_and_is_its_child():
     pid, code = parent.split()
     assert (child, code) == (f"{pid} True ['a']", '0'), done
     assert done.stderr == ''
+
+
+def test_programs_share_what_is_loaded():
+    """A count of references that changes, of anything that is loaded, would copy its memory."""
+    counts = """
+import argparse, json, sys
+def counts():
+    loaded = (argparse, json.loads, json.loads.__code__, argparse.__doc__, argparse.Action)
+    return [sys.getrefcount(each) for each in loaded]
+before = counts()
+more = [(argparse, json.loads, json.loads.__code__, argparse.__doc__, argparse.Action)]
+print(before == counts())
+"""
+    ways = (subprocess.run, preloaded.run)
+    options = ({'capture_output': True, 'text': True}, {'timeout': PATIENCE})
+    said = [
+        way([sys.executable, '-c', counts], **each).stdout
+        for way, each in zip(ways, options, strict=True)
+    ]
+    assert said == ['False\n', 'True\n']
+
+
+def test_a_program_of_many_threads_knows_its_own_number():
+    """What the C library does at a fork is done for a program that it has not forked."""
+    program = """
+import os, threading
+assert threading.get_native_id() == os.getpid()
+threads = [threading.Thread(target=lambda: None) for _ in range(8)]
+for each in threads: each.start()
+for each in threads: each.join()
+import ctypes
+library = ctypes.CDLL(None)
+library.pthread_self.restype = ctypes.c_void_p
+clock = ctypes.c_int()
+assert library.pthread_getcpuclockid(ctypes.c_void_p(library.pthread_self()),
+                                     ctypes.byref(clock)) == 0
+assert ~clock.value >> 3 == os.getpid(), (clock.value, os.getpid())
+"""
+    result = preloaded.run([sys.executable, '-c', program], timeout=PATIENCE)
+    assert (result.returncode, result.stderr) == (0, '')
