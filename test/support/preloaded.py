@@ -69,8 +69,10 @@ _READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
 # One server has what ``ros2`` and nodes of tests load, the other our nodes and whole stacks. To
 # fork takes 5 ms for each 70 MB that are loaded, so the first has nothing of the second.
 _LIGHT = """
-amr_description.cli.* bz2 geometry_msgs.msg lzma nav_msgs.msg numpy random rosidl_generator_py
-sensor_msgs.msg shutil std_msgs.msg std_srvs.srv tempfile tf2_msgs.msg
+amr_description.bringup.main amr_description.cli.* argcomplete argcomplete.completers bz2
+geometry_msgs.msg lifecycle_msgs.srv lzma nav_msgs.msg numpy random rosidl_generator_py
+sensor_msgs.msg shutil simulation_interfaces.action simulation_interfaces.srv std_msgs.msg
+std_srvs.srv tempfile tf2_msgs.msg
 """
 _BRINGUP = 'amr_description.bringup.main'
 _BRINGUP_SCRIPT = ('amr_description', 'bringup')

@@ -166,3 +166,18 @@ def test_a_server_ends_with_its_orchestrator(tmp_path, environment):
     pid, status = os.waitpid(int(done.stdout), 0)
     assert os.waitstatus_to_exitcode(status) == 0
     assert not Path(f'/proc/{pid}').exists()
+
+
+def test_what_every_node_needs_is_loaded_before_programs_are_forked():
+    code = (
+        'import sys, rclpy\n'
+        'from rclpy.node import Node\n'
+        'from amr_description.forking import load_type_supports\n'
+        'load_type_supports()\n'
+        'loaded = {*sys.modules}\n'
+        'rclpy.init()\n'
+        'node = Node("first")\n'
+        'print(*{*sys.modules} - loaded)\n'
+    )
+    done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True)
+    assert done.stdout == '\n', done.stderr

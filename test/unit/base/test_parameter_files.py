@@ -37,6 +37,7 @@ def test_nodes_may_stand_below_their_namespaces(tmp_path):
         ('/arm: \x07', 'character 7 is U.0007, which YAML does not allow'),
         ('/arm: 2026-99-99', 'month must be in 1..12'),
         ('{\n' * 50_000, 'nested too deeply'),
+        ('{\n' * 500 + 'x', 'nested too deeply'),
         ('a: &x\n  b: *x', 'nested too deeply'),
     ],
 )
