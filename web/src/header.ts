@@ -107,7 +107,7 @@ export class Header {
   private showLink(): void {
     const { link, hello, recording } = this.app.store;
     const isRecorded = link.state === 'open' && recording !== null;
-    const word = isRecorded ? 'Recording' : LINKS[link.state];
+    const word = isRecorded ? 'Bag' : LINKS[link.state];
     setText(this.link, this.app.store.silence === '' ? word : this.app.store.silence);
     this.link.dataset.tone = this.app.store.silence === '' ? TONES[link.state] : 'error';
     setText(this.domain, hello === null || isRecorded ? '' : `${hello.client} · domain ${hello.domain}`);

@@ -10,7 +10,6 @@ then.
 import asyncio
 from collections.abc import Callable
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 import threading
 import time
@@ -21,6 +20,7 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.timer import Timer
 
+from amr_description.bag.folder_names import default_folder
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.ros.recorder import Recorder, RecorderOptions
 from amr_description.bag.topic_filter import TopicFilter
@@ -183,7 +183,7 @@ class _Ending:
 
 def _new_folder(parent: Path) -> Path:
     """Return a folder that is not there yet, named as ``ros2 bag record`` names its bags."""
-    name = datetime.now().strftime('rosbag2_%Y_%m_%d-%H_%M_%S')
+    name = default_folder()
     path, number = parent / name, 1
     while path.exists():  # as of two in one second
         number += 1

@@ -31,6 +31,7 @@ from test_viewer_server import ask, url_of, viewer
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory
 
+from amr_description.bag.reader import BagReader
 from amr_description.ros.service_calls import wait_until
 from amr_description.viewer.samples import SAMPLE_KIND
 
@@ -364,15 +365,22 @@ def test_whatever_ends_a_drive_stops_the_robot(host, url, ending):
         host.until(lambda: watcher.is_told_that_nobody_drives)
 
 
-def test_the_end_of_the_viewer_stops_the_robot(host):
+def test_the_end_of_the_viewer_stops_the_robot_and_completes_its_bag(host, tmp_path):
     robot = Robot(host.node)
-    with viewer() as program, Page(url_of(program)) as page:
+    with viewer('port:=0', f'bag_folder:={tmp_path}') as program, Page(url_of(program)) as page:
         host.connected(page, robot)
+        reply = page.ask('start_recording', 1, topics=[])
+        assert reply['ok'], reply['message']
+        host.until(lambda: page.last('bag_writing')['messages'])
         with at_rest(host, robot):
             page.say('drive', robot='/', linear=0.5, angular=0.0)
             host.until(lambda: robot.commands)
             program.signal(signal.SIGTERM)
         assert program.end() == 0
+    (folder,) = tmp_path.iterdir()
+    with BagReader(folder) as reader:
+        assert not reader.is_rebuilt
+        assert [*reader.messages()]
 
 
 def test_one_page_drives_at_a_time_and_all_know_which(host, url):
