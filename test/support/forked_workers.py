@@ -23,6 +23,7 @@ import signal
 import sys
 import threading
 import traceback
+from typing import Any
 import warnings
 
 import pytest
@@ -121,11 +122,17 @@ class ForkedWorkers:
         except (EOFError, OSError):
             self._note_end(session, worker)
             return
-        hook = session.config.hook
         if message == _REQUEST:
             self._hand_out(session, worker)
             return
-        name, arguments = message
+        for name, arguments in message:
+            self._report(session, worker, name, arguments)
+
+    def _report(
+        self, session: pytest.Session, worker: '_Worker', name: str, arguments: dict[str, Any]
+    ) -> None:
+        """Have the plugins hear of what a worker has reported."""
+        hook = session.config.hook
         if name == 'pytest_runtest_logreport':
             report = hook.pytest_report_from_serializable(config=session.config, data=arguments)
             hook.pytest_runtest_logreport(report=report)
@@ -255,7 +262,15 @@ def _leave_streams_to_the_parent(config: pytest.Config) -> None:
 
 def _run(session: pytest.Session, link: Connection) -> None:
     """Run one test after the other."""
-    session.config.pluginmanager.register(_Reporting(session.config, link))
+    reporting = _Reporting(session.config, link)
+    session.config.pluginmanager.register(reporting)
+    try:
+        _run_all(session, link)
+    finally:
+        reporting.send_all()  # of a test that was interrupted
+
+
+def _run_all(session: pytest.Session, link: Connection) -> None:
     indices: deque[int] = deque(link.recv())
     while indices and not (session.shouldfail or session.shouldstop):
         item = session.items[indices.popleft()]
@@ -268,21 +283,27 @@ def _run(session: pytest.Session, link: Connection) -> None:
 
 
 class _Reporting:
-    """A plugin of a worker: it sends to the parent what the parent's plugins want to hear of."""
+    """
+    A plugin of a worker: it sends to the parent what the parent's plugins want to hear of.
+
+    All of a test at once: to wake the parent five times for each takes more time than most tests.
+    """
 
     def __init__(self, config: pytest.Config, link: Connection) -> None:
         self._config = config
         self._link = link
+        self._reports: list[tuple[str, dict[str, Any]]] = []
 
     def pytest_runtest_logstart(self, nodeid: str, location: Sequence[object]) -> None:
         self._send('pytest_runtest_logstart', nodeid=nodeid, location=location)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         data = self._config.hook.pytest_report_to_serializable(config=self._config, report=report)
-        self._link.send(('pytest_runtest_logreport', data))
+        self._reports.append(('pytest_runtest_logreport', data))
 
     def pytest_runtest_logfinish(self, nodeid: str, location: Sequence[object]) -> None:
         self._send('pytest_runtest_logfinish', nodeid=nodeid, location=location)
+        self.send_all()
 
     def pytest_warning_recorded(
         self,
@@ -311,4 +332,10 @@ class _Reporting:
         )
 
     def _send(self, hook: str, **arguments: object) -> None:
-        self._link.send((hook, arguments))
+        self._reports.append((hook, arguments))
+
+    def send_all(self) -> None:
+        """Send what has been reported since the last time."""
+        if self._reports:
+            self._link.send(self._reports)
+            self._reports = []
