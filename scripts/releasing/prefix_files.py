@@ -97,18 +97,29 @@ _amr_root=$(CDPATH='' cd -- "$(dirname -- "{file}")" >/dev/null && pwd -P)
 . "$_amr_root/local_setup.{shell}"
 case $- in
     *i*) # Tab completes the words of ros2, in a shell that somebody types into.
-        {before}eval "$(_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 "$_amr_root/bin/python" -P \\
-            -m argcomplete.scripts.register_python_argcomplete ros2)"
-        ;;
+{complete}        ;;
 esac
 unset _amr_root
 """
 _FILE = {'bash': '${BASH_SOURCE[0]}', 'zsh': '${(%):-%x}'}
-_BEFORE = {
-    'bash': '',
+# bash asks argcomplete at the first Tab, not in each shell that is opened; 124: look again how.
+_COMPLETE = {
+    'bash': """\
+        printf -v _amr_python %q "$_amr_root/bin/python"
+        eval "_python_argcomplete_at_first_tab() {
+            local text
+            text=\\$(_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 $_amr_python -P \\
+                -m argcomplete.scripts.register_python_argcomplete ros2) &&
+                eval \\"\\$text\\" && return 124
+        }"
+        complete -o nospace -o default -o bashdefault -F _python_argcomplete_at_first_tab ros2
+        unset _amr_python
+""",
     'zsh': """\
-command -v compdef >/dev/null || { autoload -Uz compinit && compinit -i -D; }
-        """,
+        command -v compdef >/dev/null || { autoload -Uz compinit && compinit -i -D; }
+        eval "$(_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 "$_amr_root/bin/python" -P \\
+            -m argcomplete.scripts.register_python_argcomplete ros2)"
+""",
 }
 
 _MODULE = """\
@@ -175,8 +186,8 @@ def hooks() -> dict[str, str]:
     text = _LOCAL_SETUP_SH.format(exports=exports)
     found = dict.fromkeys(('setup.sh', 'local_setup.sh'), text)
     for shell, file in _FILE.items():
-        before = _BEFORE[shell]
-        found[f'setup.{shell}'] = _SETUP.format(file=file, shell=shell, before=before)
+        complete = _COMPLETE[shell]
+        found[f'setup.{shell}'] = _SETUP.format(file=file, shell=shell, complete=complete)
         found[f'local_setup.{shell}'] = _LOCAL_SETUP.format(file=file)
     return found
 

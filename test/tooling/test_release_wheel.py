@@ -131,6 +131,27 @@ def test_commands_need_nothing_sourced_and_start_its_executables(prefix, tmp_pat
         talker.expect(r'\[minimal_publisher\]: Publishing: "Hello World: 0"')
 
 
+COMPLETION = """
+source "$1/setup.bash"
+_python_argcomplete_at_first_tab || echo $?
+complete -p ros2
+"""
+
+
+def test_its_setup_file_completes_at_the_first_tab(prefix, tmp_path):
+    done = subprocess.run(
+        ['bash', '--norc', '-i', '-c', COMPLETION, 'bash', prefix],
+        env=fresh(tmp_path),
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        start_new_session=True,
+    )
+    looks_again, complete = done.stdout.splitlines()
+    assert looks_again == '124', done.stderr
+    assert complete.endswith(' -F _python_argcomplete ros2')
+
+
 SHELL = """
 source "$1/setup.bash"
 printf '%s|' "$ROS_DISTRO" "$AMENT_PREFIX_PATH" "$(command -v ros2)"
