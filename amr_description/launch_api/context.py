@@ -7,6 +7,8 @@ import os
 from types import SimpleNamespace
 from typing import Any, Protocol, Self
 
+from amr_description.bringup.handlers import Level
+
 NAMESPACE = 'ros_namespace'
 PARAMETERS = 'global_params'
 REMAPPINGS = 'ros_remaps'
@@ -36,6 +38,8 @@ class LaunchContext:
         self._environments: list[dict[str, str]] = []
         self.read: set[str] = set()
         """The names of all configurations that a substitution asked for."""
+        self.notes: list[tuple[Level, str]] = []
+        """Lines that are logged when the processes start."""
 
     @property
     def locals(self) -> SimpleNamespace:
@@ -66,6 +70,7 @@ class LaunchContext:
         other.environment_at_first = self.environment_at_first
         other.extend_locals(self._locals)
         other.read = self.read
+        other.notes = self.notes
         return other
 
     def push_configurations(self) -> None:

@@ -250,8 +250,11 @@ class Command(Substitution):
         last = f': {said[-1]}' if said else ''
         if result.returncode:
             raise self.failure(f'executed command failed. Command: {text}{last}')
-        if said and on_stderr == 'fail':
-            raise self.failure(f'executed command showed stderr output. Command: {text}{last}')
+        if said and on_stderr in ('fail', 'warn'):
+            fault = f'executed command showed stderr output. Command: {text}{last}'
+            if on_stderr == 'fail':
+                raise self.failure(fault)
+            context.notes.append(('WARNING', fault))
         return result.stdout
 
     def _words(self, text: str) -> list[str]:

@@ -110,7 +110,7 @@ class Translation:
         self.handling = Handling(self)
         self.nodes: list[StackNode] = []
         self.event_handlers: list[EventHandler] = []
-        self.notes: list[tuple[Level, str]] = []
+        self.notes: list[tuple[Level, str]] = context.notes
         self.started: dict[Action, Started] = {}
         """What has become of each action that starts a process or a timer."""
         self.when: Condition | None = None

@@ -119,6 +119,11 @@ def test_stderr_of_a_command_may_be_allowed(context):
     odd = 'sh -c "echo odd >&2; echo even"'
     assert subs.Command(odd, on_stderr='ignore').perform(context) == 'even\n'
     assert subs.Command(odd, on_stderr='capture').perform(context) == 'odd\neven\n'
+    assert context.notes == []
+    assert subs.Command(odd, on_stderr='warn').perform(context.copy()) == 'even\n'
+    ((level, text),) = context.notes
+    assert level == 'WARNING'
+    assert text == f'executed command showed stderr output. Command: {odd}: odd'
 
 
 @pytest.mark.parametrize(
