@@ -68,12 +68,15 @@ def record(seconds: float, rtf: float, *, busy: int = 0) -> Run:
         rtf: Real-time factor; 0: as fast as possible.
         busy: The number of processes that load the machine meanwhile.
     """
-    with tempfile.TemporaryDirectory(prefix='amr-determinism-') as name, load(busy):
+    with tempfile.TemporaryDirectory(prefix='amr-determinism-') as name:
         folder = Path(name)
         log = folder / 'drive.log'
         controllers, urdf = _files(folder, log, seconds)
         activate = ['diff_drive_controller', _CONTROLLER]
-        with Simulation(urdf, controllers, world='kerbs', rtf=rtf, activate=activate) as sim:
+        with (
+            Simulation(urdf, controllers, world='kerbs', rtf=rtf, activate=activate) as sim,
+            load(busy),  # from the first tick on: to start is no part of the drive
+        ):
             begin = time.monotonic()
             sim.ask(SetSimulationState, state=SimulationState(state=SimulationState.STATE_PLAYING))
             sim.wait(log.exists, 'the end of the drive', timeout=60.0 + 3.0 * seconds)
@@ -83,15 +86,23 @@ def record(seconds: float, rtf: float, *, busy: int = 0) -> Run:
 
 @contextmanager
 def load(count: int) -> Iterator[None]:
-    """Run ``count`` processes that take a core each, while inside."""
-    endless = [sys.executable, '-c', 'while True: pass']
-    processes = [subprocess.Popen(endless, start_new_session=True) for _ in range(count)]
+    """Run ``count`` processes that take a core each, while inside, all of it."""
+    endless = [sys.executable, '-c', "print('busy', flush=True)\nwhile True: pass"]
+    processes = [
+        subprocess.Popen(endless, stdout=subprocess.PIPE, start_new_session=True)
+        for _ in range(count)
+    ]
     try:
+        for process in processes:
+            assert process.stdout is not None
+            process.stdout.readline()  # else a short drive might be over before they run
         yield
     finally:
         for process in processes:
             process.kill()
             process.wait()
+            if process.stdout is not None:
+                process.stdout.close()
 
 
 def _files(folder: Path, log: Path, seconds: float) -> tuple[Path, Path]:
