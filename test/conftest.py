@@ -196,8 +196,7 @@ def pytest_sessionstart():
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_finish():
-    gc.collect()
-    gc.freeze()
+    gc.freeze()  # also what is garbage already: a search for it takes longer than it is worth
     # Seldom: that takes 4 % of the processor time of test/unit, where Hypothesis hears of each.
     gc.set_threshold(10_000)
     gc.enable()
