@@ -73,7 +73,9 @@ def shown(page):
 
 def await_at(page, x, y, within=1e-3):
     """Wait until the page shows the robot there, m."""
-    page.until(f'Math.hypot(amr.now.scene.pose.x - {x}, amr.now.scene.pose.y - {y}) < {within}')
+    page.wait_until(
+        f'Math.hypot(amr.now.scene.pose.x - {x}, amr.now.scene.pose.y - {y}) < {within}'
+    )
 
 
 def is_at(page, seconds):
@@ -85,7 +87,7 @@ def is_at(page, seconds):
 def test_a_bag_is_scrubbed_forwards_and_backwards(browser, drive):
     with viewer('--bag', drive) as url:
         page = browser.open(url, **SMALL)
-        page.until('amr.now.samples > 500')  # all of it is plotted at once
+        page.wait_until('amr.now.samples > 500')  # all of it is plotted at once
         assert page.evaluate('amr.now.recording') == 'drive'
         assert is_at(page, 0.0)
         press(page, 'End')
@@ -96,7 +98,7 @@ def test_a_bag_is_scrubbed_forwards_and_backwards(browser, drive):
         assert is_at(page, 3.5)
         assert trails(page) == trails(page, after='Home')
         press(page, 'Space', ' ')
-        page.until('amr.now.place > 0.5')
+        page.wait_until('amr.now.place > 0.5')
         assert not page.evaluate("document.querySelector('.stop').checkVisibility()")
         page.evaluate(f'{AUDIT};0')
         for width, height in ((1280, 760), (390, 780), (780, 390)):
@@ -134,9 +136,9 @@ def trails(page, after=None):
 def test_a_page_records_and_another_one_stops(browser, graph_viewer, bags):
     with started('topic', 'pub', '-r', '50', '/chatter', 'std_msgs/msg/String', 'data: hello'):
         page = browser.open(graph_viewer, webgl=False, **SMALL)
-        page.until("amr.now.link === 'open'")
+        page.wait_until("amr.now.link === 'open'")
         page.click('.recorder button')
-        page.until('amr.now.writing')
+        page.wait_until('amr.now.writing')
         with Page(graph_viewer) as other:
             assert other.wait(lambda: other.last('bag_writing'))['active']
             page.close()
@@ -160,7 +162,7 @@ def test_a_drive_that_is_trimmed_and_played_is_seen(browser, graph_viewer, drive
     options = ('--start-offset', str(begin), '--duration', str(length))
     assert ros2('bag', 'trim', str(drive), '-o', str(part), *options).returncode == 0
     page = browser.open(graph_viewer, **SMALL)
-    page.until("amr.now.link === 'open'")
+    page.wait_until("amr.now.link === 'open'")
     with played(part) as play_until:
         for each in range(1, 11):
             place = length * each / 10
@@ -230,7 +232,7 @@ def test_a_drive_in_the_simulator_is_what_the_page_shows_of_its_bag(browser, tmp
 
     with own_domain(), viewer() as url:
         page = browser.open(url, width=1280, height=760)
-        page.until("amr.now.link === 'open'")
+        page.wait_until("amr.now.link === 'open'")
         with played(part) as play_until:
             for each in range(1, 11):
                 play_until(each * 0.45)
@@ -238,30 +240,30 @@ def test_a_drive_in_the_simulator_is_what_the_page_shows_of_its_bag(browser, tmp
         page.close()
     with viewer('--bag', part) as url:
         page = browser.open(url, width=1280, height=760)
-        page.until('amr.now.samples > 100')
+        page.wait_until('amr.now.samples > 100')
         for place in (4.5, 1.0, 3.25):
             slide(page, place)
-            page.until(f'Math.abs(amr.now.place - {place}) < 1e-3')
+            page.wait_until(f'Math.abs(amr.now.place - {place}) < 1e-3')
             await_at(page, *truth_at(place)[:2], within=1e-2)
         page.close()
 
 
 def record_drive(browser, url):
     page = browser.open(url, width=1280, height=760)
-    page.until("amr.now.link === 'open' && amr.now.robot && amr.now.states > 5")
+    page.wait_until("amr.now.link === 'open' && amr.now.robot && amr.now.states > 5")
     page.click('.recorder button')
-    page.until('amr.now.writing')
+    page.wait_until('amr.now.writing')
     begin = shown(page)
     page.key_down('KeyW')
     page.key_down('KeyA')
-    page.until(
+    page.wait_until(
         f'Math.hypot(amr.now.scene.pose.x - {begin[0]}, amr.now.scene.pose.y - {begin[1]}) > 1.0'
     )
     page.key_up('KeyA')
-    page.until(f'amr.now.time > {page.evaluate("amr.now.time") + 3}')
+    page.wait_until(f'amr.now.time > {page.evaluate("amr.now.time") + 3}')
     page.key_up('KeyW')
     page.click('.recorder button')
-    page.until('amr.now.writing === null')
+    page.wait_until('amr.now.writing === null')
     assert page.errors == []
     page.close()
 
