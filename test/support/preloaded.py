@@ -12,8 +12,7 @@ signals and an end of its own, and nothing of DDS is initialised before.
 What differs: its modules are loaded before it asks for them, so a test of what a program imports
 must use ``subprocess``; these modules are not taken down object by object at its end, which would
 copy all their memory; and the interpreter of a program of this package is not taken down at all
-(``forking.run_to_the_end``). Nobody counts the references to what is loaded
-(``server_memory.py``). A command that is no Python program, one with options of the
+(``forking.run_to_the_end``). A command that is no Python program, one with options of the
 interpreter, and one whose environment changes the interpreter is started as ever.
 
 A program that tests robots with ``amr_description.testing``, pytest among them, has a server of
@@ -48,7 +47,6 @@ import traceback
 import types
 import warnings
 
-from support import server_memory
 from support.paths import ROOT
 
 from amr_description.forking import (
@@ -63,6 +61,7 @@ _MOST_FILES = 16
 _LENGTH = struct.Struct('<I')
 _PID = struct.Struct('<i')
 _PR_SET_NAME = 15
+_PR_SET_CHILD_SUBREAPER = 36
 # What an interpreter, a loader or a library reads as it starts, or as it is imported.
 _READ_AT_START = ('PYTHON', 'LANG', 'LC_', 'LD_', 'RMW_', 'MUJOCO', 'OMP_', 'OPENBLAS', 'MALLOC')
 _READ_LATER = ('PYTHONPATH', 'PYTHONUNBUFFERED', 'PYTHONDONTWRITEBYTECODE')
@@ -228,35 +227,52 @@ class _Server:
 
     def __init__(self, connection):
         self._lock = threading.Lock()
+        self._libc = ctypes.CDLL(None, use_errno=True)
         self._socket = connection
 
     def start(self, request, files):
         """Have a program forked that becomes a child of this process; return its pid."""
         data = json.dumps(request).encode()
         with self._lock:
-            socket.send_fds(self._socket, [_LENGTH.pack(len(data))], files)
-            self._socket.sendall(data)
-            reply = self._socket.recv(_PID.size, socket.MSG_WAITALL)
+            # The program's parent ends at once, and who takes orphans is this process, for now.
+            self._libc.prctl(_PR_SET_CHILD_SUBREAPER, 1)
+            try:
+                socket.send_fds(self._socket, [_LENGTH.pack(len(data))], files)
+                self._socket.sendall(data)
+                reply = self._socket.recv(_PID.size, socket.MSG_WAITALL)
+            finally:
+                self._libc.prctl(_PR_SET_CHILD_SUBREAPER, 0)
         return _PID.unpack(reply)[0]
 
 
 def _serve(connection, tracing):
     """Fork a program for each request, until the test run ends; return in each program."""
-    fork = server_memory.SiblingFork()
     while True:
         head, files, _, _ = socket.recv_fds(connection, _LENGTH.size, _MOST_FILES)
         if not head:
             sys.exit()
         request = json.loads(connection.recv(_LENGTH.unpack(head)[0], socket.MSG_WAITALL))
+        reader, writer = os.pipe()
+        begun, held = os.pipe()
         tracing.before_fork()
-        pid = fork()
-        if pid == 0:
-            connection.detach()  # closed with the rest
-            return request, files
+        between = os.fork()
+        if between == 0:
+            os.close(held)
+            pid = os.fork()
+            if pid == 0:
+                os.read(begun, 1)
+                connection.detach()  # closed with the rest
+                return request, files
+            os.write(writer, _PID.pack(pid))
+            os._exit(0)
         tracing.after_fork_in_parent()
-        for fd in files:
+        os.waitpid(between, 0)
+        os.close(held)  # the program has its new parent now, and begins
+        for fd in (begun, *files):
             os.close(fd)
-        connection.sendall(_PID.pack(pid))
+        connection.sendall(os.read(reader, _PID.size))
+        os.close(reader)
+        os.close(writer)
 
 
 def _fork_server(tracing):
@@ -483,10 +499,8 @@ def serve(base):
     # The threads that this warning is about are those that LTTng starts and no program needs.
     warnings.filterwarnings('ignore', 'This process .* is multi-threaded', DeprecationWarning)
     note_files_of_modules()
-    server_memory.share_objects()
     gc.freeze()
     gc.enable()
-    server_memory.use_huge_pages()
     loaded |= sys.modules
     tracing = ForkTracing()
     with socket.socket(fileno=int(sys.argv[1])) as connection:

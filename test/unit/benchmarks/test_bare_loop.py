@@ -3,6 +3,7 @@
 """The measure of the physics alone."""
 
 from itertools import count
+import time
 
 from fixtures.sim.driving import AMR
 import pytest
@@ -32,4 +33,5 @@ def test_a_fleet_has_room():
 
 
 def test_physics_is_far_from_being_the_bottleneck():
-    assert bare_real_time_factor(AMR, seconds=0.05) > 10
+    # By the processor time, which others on the machine do not take.
+    assert bare_real_time_factor(AMR, seconds=0.05, clock=time.thread_time) > 10
