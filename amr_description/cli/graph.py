@@ -91,7 +91,7 @@ def namesakes(node: Node, topic: str, count: Callable[[str], int]) -> list[str]:
 
 def wait_for_type(session: Session, topic: str) -> str:
     """Wait without limit for a topic; return its type. Raises AmrError if there are several."""
-    if not session.spin(lambda: is_published(session.node, topic), lookup_timeout()):
+    if not is_there_within(session, lambda: is_published(session.node, topic), lookup_timeout()):
         print(f'WARNING: topic [{topic}] does not appear to be published yet')
         session.spin(lambda: is_published(session.node, topic))
     return only_type_of(session.node, topic)
