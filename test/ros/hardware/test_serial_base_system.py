@@ -8,6 +8,7 @@ Boards that go away: ``test_serial_base_losses.py``.
 
 from contextlib import suppress
 import errno
+from itertools import groupby
 import math
 from pathlib import Path
 import threading
@@ -313,7 +314,9 @@ def test_a_command_from_before_an_arm_moves_nothing_after_it(rig, board):
     rig.system.activate()
     armed_at = board._uptime
     until(lambda: board._uptime > armed_at + 0.1)  # a lost answer is given up after 50 ms
-    assert [type(message) for message in received(board)][-2:] == [Disarm, Arm]
+    # A question is repeated where the answer is late.
+    kinds = [kind for kind, _ in groupby(map(type, received(board)))]
+    assert kinds[-2:] == [Disarm, Arm]
 
 
 def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
