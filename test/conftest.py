@@ -30,6 +30,8 @@ sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT)]
 
 pytest_plugins = ['support.stderr_file']
 preloaded.start_for(program)  # the simulators of tests that are written as users write theirs
+LONGEST_TEST = 600.0
+"""s; the longest takes 15 s by itself, and a minute on a busy machine."""
 KEPT = {}  # what has to last as long as the run
 
 # Everywhere the same numbers, no deadline on a busy machine, and half as many examples as
@@ -80,6 +82,7 @@ def pytest_configure(config):
             lambda number: begin_worker(config, number),
             give_back,
             lambda items: ordering.groups(items, KEPT['durations']),
+            None if config.option.long else LONGEST_TEST,
         )
         config.pluginmanager.register(plugin)
     KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)

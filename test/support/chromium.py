@@ -60,6 +60,11 @@ _NO_WEBGL = """
 }
 """
 """What a page finds in a browser without WebGL."""
+_CENTRE = """(() => {
+  element.scrollIntoView({block: 'nearest', inline: 'nearest'});
+  const box = element.getBoundingClientRect();
+  return [box.x + box.width / 2, box.y + box.height / 2];
+})()"""
 _MODIFIERS = {'Alt': 1, 'Control': 2, 'Meta': 4, 'Shift': 8}
 
 
@@ -350,8 +355,24 @@ class Page:
             self.mouse('mouseReleased', *self._pressed)
 
     def click(self, selector):
-        """Click with the mouse at the middle of the first element of a CSS selector."""
-        x, y = self.centre_of(selector)
+        """
+        Click with the mouse at the middle of the first element of a CSS selector.
+
+        As a person does, once it stands still, and nothing lies on it: a panel that opens is
+        filled when the next state arrives, and what is in it moves.
+        """
+        x, y = self.wait_until(
+            f"""(() => {{
+              const element = document.querySelector({json.dumps(selector)});
+              const [x, y] = {_CENTRE};
+              const hit = document.elementFromPoint(x, y);
+              const before = window.placeToClick;
+              window.placeToClick = `${{x}} ${{y}}`;
+              if (before !== window.placeToClick || !element.contains(hit)) return null;
+              window.placeToClick = null;
+              return [x, y];
+            }})()"""
+        )
         self.mouse('mousePressed', x, y)
         self.mouse('mouseReleased', x, y)
 
@@ -362,9 +383,7 @@ class Page:
         return self.evaluate(
             f"""(() => {{
               const element = document.querySelector({text});
-              element.scrollIntoView({{block: 'nearest', inline: 'nearest'}});
-              const box = element.getBoundingClientRect();
-              return [box.x + box.width / 2, box.y + box.height / 2];
+              return {_CENTRE};
             }})()"""
         )
 

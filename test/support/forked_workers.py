@@ -22,6 +22,7 @@ import pickle
 import signal
 import sys
 import threading
+import time
 import traceback
 from typing import Any
 import warnings
@@ -45,6 +46,8 @@ class ForkedWorkers:
         begin: Called in each worker before its first test, with the worker's number from 0.
         end: Called in each after its last test.
         groups_of: Says what each test belongs to. What belongs together runs in one worker.
+        longest: s that one test may take; one that takes longer waits for ever: it fails, and
+            where each of its threads stands is written to stderr. None: no bound.
     """
 
     def __init__(
@@ -53,8 +56,10 @@ class ForkedWorkers:
         begin: Callable[[int], object],
         end: Callable[[], object],
         groups_of: Callable[[Sequence[pytest.Item]], Iterable[object]],
+        longest: float | None = None,
     ) -> None:
         self._count = count
+        self._longest = longest
         self._groups_of = groups_of
         self._begin = begin
         self._end = end
@@ -77,9 +82,11 @@ class ForkedWorkers:
             for number in range(min(self._count, len(self._groups))):
                 self._fork(session, number)
             while self._workers:
-                for each in connection.wait([*self._workers]):
+                for each in connection.wait([*self._workers], self._longest):
                     assert isinstance(each, Connection)
+                    self._workers[each].heard_at = time.monotonic()
                     self._hear(session, self._workers[each])
+                self._abort_silent()
         finally:
             self._end_all()
         if session.shouldfail:
@@ -172,6 +179,14 @@ class ForkedWorkers:
         if self._groups:
             self._fork(session, worker.number)
 
+    def _abort_silent(self) -> None:
+        """End the workers whose test takes too long, by the signal at which pytest says where."""
+        now = time.monotonic()
+        for worker in self._workers.values():
+            if self._longest is not None and now - worker.heard_at > self._longest:
+                worker.heard_at = now
+                os.kill(worker.pid, signal.SIGABRT)
+
     def _end_all(self) -> None:
         """Interrupt the workers that are left, and wait for them."""
         for worker in self._workers.values():
@@ -199,6 +214,7 @@ class _Worker:
         self.number = number
         self.pid = pid
         self.connection = link
+        self.heard_at = time.monotonic()
         self.outstanding: deque[int] = deque()
 
 

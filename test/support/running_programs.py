@@ -87,9 +87,9 @@ class Program:
                 with contextlib.suppress(OSError):
                     os.close(end)
 
-    def expect(self, pattern, since=0):
-        """Wait until the output from ``since`` on matches; return the match."""
-        deadline = time.monotonic() + PATIENCE
+    def expect(self, pattern, since=0, *, within=PATIENCE):
+        """Wait until the output from ``since`` on matches, ``within`` s; return the match."""
+        deadline = time.monotonic() + within
         while not (found := re.compile(pattern).search(self.output, since)):
             if not self._read(deadline):
                 raise AssertionError(f'no {pattern!r} in:\n{self.output}')

@@ -7,11 +7,13 @@ import os
 import re
 
 from support.paths import ROOT
-from support.running_programs import Program
+from support.running_programs import PATIENCE, Program
 
 PROMPT = 'amr-test> '
 _COLOUR = re.compile(r'\x1b\[\d*m')
 CTRL_C = '\x03'
+_BUILD_TIMEOUT = 5 * PATIENCE
+"""s: a compiler takes ten seconds of a processor, which others want too."""
 
 
 def line_of(book, beginning):
@@ -46,9 +48,11 @@ class Shell:
 
     def run(self, beginning, code=0):
         """Type the line of the book that begins so; return what it printed, once it has ended."""
-        self.type(f'{line_of(self.book, beginning)}\necho "exit=$?"')
+        line = line_of(self.book, beginning)
+        self.type(f'{line}\necho "exit=$?"')
         begin = self._program.expect(re.escape('echo "exit=$?"') + r'\r?\n', self._seen).end()
-        end = self._program.expect(r'exit=(\d+)\r?\n' + re.escape(PROMPT), begin)
+        within = _BUILD_TIMEOUT if line.startswith('colcon ') else PATIENCE
+        end = self._program.expect(r'exit=(\d+)\r?\n' + re.escape(PROMPT), begin, within=within)
         printed = _COLOUR.sub('', self._program.output[begin : end.start()].replace('\r\n', '\n'))
         assert int(end[1]) == code, printed
         return printed.replace(PROMPT, '')

@@ -27,6 +27,7 @@ def pytest_configure(config):
         lambda number: note('begin', number, os.getpid()),
         lambda: note('end', os.getpid()),
         lambda items: [item.path for item in items],
+        float(os.environ['LONGEST']) if 'LONGEST' in os.environ else None,
     ))
 
 note('collects', os.getpid())
@@ -46,14 +47,14 @@ def test_two(): pass
 """
 
 
-def run(folder, *arguments, **files):
-    """Pytest in a folder with these files, in workers."""
+def run(folder, *arguments, longest=None, **files):
+    """Pytest in a folder with these files, in workers; ``longest``: s, of a test."""
     (folder / 'conftest.py').write_text(CONFTEST)
     for name, text in files.items():
         (folder / f'test_{name}.py').write_text(text)
     options = ('-p', 'no:cacheprovider', '-p', 'no:hypothesispytest', '--junitxml=junit.xml')
     # Not the options of this run, such as those of colcon.
-    env = {'PYTEST_ADDOPTS': ''}
+    env = {'PYTEST_ADDOPTS': ''} | ({} if longest is None else {'LONGEST': str(longest)})
     return Program(sys.executable, '-m', 'pytest', *options, *arguments, cwd=folder, env=env)
 
 
@@ -118,6 +119,22 @@ def test_after(): pass
     text = 'the process that ran test_dies.py::test_dies was killed by SIGSEGV'
     assert text in program.output
     assert len(of('begin', notes(tmp_path))) == 3
+
+
+def test_a_test_that_waits_for_ever_fails_and_says_where(tmp_path):
+    stuck = """
+import threading
+def test_before(): pass
+def test_stuck(): wait_for_nothing()
+def test_after(): pass
+def wait_for_nothing():
+    threading.Event().wait()
+"""
+    with run(tmp_path, longest=5.0, stuck=stuck, good=GOOD) as program:
+        assert program.end() == 1
+        assert '1 failed, 4 passed' in program.output
+        assert 'test_stuck was killed by SIGABRT' in program.output
+        assert 'in wait_for_nothing' in program.output
 
 
 def test_an_interrupted_run_tears_down_and_leaves_nobody(tmp_path):
