@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-from amr_description.cli.discovery import wait_for_discovery
+from amr_description.cli.discovery import is_there_within, lookup_timeout
 from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session
 from amr_description.control.ros.client import ManagerClient
@@ -21,12 +21,9 @@ def _manager(args: Namespace) -> Iterator[ManagerClient]:
     with open_session() as session:
         name = full_name(session.node, args.controller_manager, 'a controller manager')
         service = f'{name}/list_controllers'
-
-        def is_there() -> bool:
-            return session.node.count_services(service) > 0
-
-        wait_for_discovery(session, 0.0, is_there)
-        if not is_there():  # a user waits
+        if not is_there_within(
+            session, lambda: session.node.count_services(service) > 0, lookup_timeout()
+        ):
             raise ControllerError(f'nobody has {service}')
         yield ManagerClient(session.node, name, timeout=_TIMEOUT, call_timeout=_TIMEOUT)
 

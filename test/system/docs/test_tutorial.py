@@ -10,7 +10,6 @@ stands beside it.
 """
 
 import re
-import time
 
 from nav_msgs.msg import Odometry
 import pytest
@@ -18,8 +17,8 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from support import shells
 from support.doc_pages import Page
-from support.running_programs import PATIENCE
 from support.shells import CTRL_C, line_of, PROMPT, ROOT
+from support.waiting import until
 
 from amr_description.ros.runtime import ros, spinning
 
@@ -153,7 +152,7 @@ def odometry(stack):
         node = Node('watcher')
         node.create_subscription(Odometry, '/odom', heard.append, 1)
         with spinning(node, executor=SingleThreadedExecutor):
-            wait_until(lambda: heard)
+            until(lambda: heard)
             yield heard
 
 
@@ -188,7 +187,7 @@ def test_the_keyboard_drives(odometry, terminal, book, package):
         keyboard.start(f'ros2 run {package} teleop_twist_keyboard ')
         keyboard.see(r'currently:\s+speed 0\.5\s+turn 1\.0')
         keyboard.press('i')
-        wait_until(lambda: x_of(odometry) > before + 0.1 or keyboard.press('i'))
+        until(lambda: x_of(odometry) > before + 0.1 or keyboard.press('i'), every=0.1)
         keyboard.press('k')
         keyboard.interrupt()
 
@@ -234,18 +233,11 @@ def test_a_controller_is_switched_off_and_on(stack, terminal):
 def x_at_rest(odometry, moved_from=None):
     """Where the robot stands, m; it rolls until the timeout of its last command."""
     if moved_from is not None:
-        wait_until(lambda: abs(x_of(odometry) - moved_from) > 1e-3)
-    wait_until(lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)
+        until(lambda: abs(x_of(odometry) - moved_from) > 1e-3)
+    until(lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)
     return x_of(odometry)
 
 
 def x_of(odometry):
     """The robot's last x, m."""
     return odometry[-1].pose.pose.position.x
-
-
-def wait_until(condition):
-    deadline = time.monotonic() + PATIENCE
-    while not condition():
-        assert time.monotonic() < deadline, 'waited in vain'
-        time.sleep(0.1)
