@@ -18,6 +18,12 @@ of the profiles, 1 ms later. A call by a new client takes 2 to 10 ms so, instead
 that was there before comes 0.1 s sooner. Only the first question is asked earlier: what a reader
 acknowledges from then on is what it always did.
 
+A reliable message that is lost is asked for at the next heartbeat of its writer. Where no further
+message brings one, as behind an answer, a latched topic or the last message of a program, Fast DDS
+sends the next after 3 s: beside six busy processes 6 of 80 messages of new publishers were
+acknowledged then only. The profiles have it sent every 0.2 s, as long as something is not
+acknowledged; so the slowest of 80 took 0.21 s.
+
 This module imports no rclpy.
 """
 

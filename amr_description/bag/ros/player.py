@@ -40,7 +40,9 @@ _SECOND = 10**9
 _LATEST = 2**31 * _SECOND  # ns; builtin_interfaces/Time has no more
 _SPARE = 2_000_000  # ns; with more than that to wait, messages are read ahead
 _LONGEST_WAIT = 3600.0  # s
-_ACKNOWLEDGED = 0.5  # s; subscriptions acknowledge within 0.1 s, or never
+# s, for all topics. Subscriptions acknowledge within 0.3 s; one to which our announcement was
+# lost, after it is repeated, 3 s later.
+_ACKNOWLEDGED = 4.0
 _ANSWERED = 2.0  # s; a service that takes longer has the request for sure
 _POLL = 0.1  # s
 NOT_WAITED_FOR = -1
@@ -405,11 +407,12 @@ class Player:
             return
         timeout = self._options.acked_timeout
         given = timeout != NOT_WAITED_FOR
+        deadline = wall.monotonic() + _ACKNOWLEDGED
         for name, publisher in self._publishers.items():
             if not _is_reliable(publisher) or not publisher.get_subscription_count():
                 continue
-            limit = (timeout / 1000 if given else _ACKNOWLEDGED) or float('inf')
-            deadline = wall.monotonic() + limit
+            if given:
+                deadline = wall.monotonic() + (timeout / 1000 or float('inf'))
             while not self._ending and not publisher.wait_for_all_acked(
                 Duration(seconds=max(0.0, min(_POLL, deadline - wall.monotonic())))
             ):

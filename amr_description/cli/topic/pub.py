@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 # s, at most. A subscriber discovers us up to 0.1 s after we have discovered it, on a busy machine
 # even later, and until then messages of a publisher that ends are lost. (Fast DDS acknowledges
-# within 0.1 s, or with the next heartbeat after 3 s, although the message has arrived at once.)
+# within 0.1 s, or at the next heartbeat, 0.2 s later.)
 _DELIVERY_TIME = 0.5
 _HINT_AFTER = 3  # s of waiting for subscriptions
 

@@ -5,6 +5,7 @@
 from contextlib import contextmanager
 import os
 from pathlib import Path
+import re
 import signal
 from xml.etree import ElementTree
 
@@ -154,6 +155,15 @@ def test_every_profile_listens_before_it_announces(profile):
     assert '<throughputController>' in profile.read_text(encoding='utf-8')
 
 
+@pytest.mark.parametrize('profile', [PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK])
+def test_every_writer_asks_soon_whether_something_is_lost(profile):
+    text = profile.read_text(encoding='utf-8')
+    writers = re.findall('<data_writer .*?</data_writer>', text, re.DOTALL)
+    assert any('is_default_profile="true"' in each for each in writers)
+    for each in writers:  # a profile of its own takes nothing from the default one
+        assert '<heartbeatPeriod><sec>0</sec><nanosec>200000000</nanosec>' in each
+
+
 @pytest.mark.parametrize('discovery_range', ['LOCALHOST', 'SUBNET'])
 def test_a_program_maps_no_shared_memory_and_fast_dds_has_no_complaint(discovery_range):
     with Program.module('talker', env={RANGE: discovery_range}) as talker:
@@ -222,12 +232,12 @@ def test_all_profiles_have_the_times_of_discovery():
         found = [each for part in parts for each in root.iter(space + part)]
         return [ElementTree.tostring(each).split() for each in found]
 
-    assert len(times(PROFILE)) == 4
+    assert len(times(PROFILE)) == 5
     for profile in (UDP, UDP_LOCALHOST, UDP_LOOPBACK):
         assert times(profile) == times(PROFILE)
 
 
-def test_the_profile_of_readers_changes_no_qos():
+def test_the_default_profiles_change_no_qos():
     context = rclpy.Context()
     with udp_only():
         rclpy.init(context=context)
@@ -237,6 +247,10 @@ def test_the_profile_of_readers_changes_no_qos():
         [info] = node.get_subscriptions_info_by_topic('of_the_profile')
         assert info.qos_profile.reliability is ReliabilityPolicy.BEST_EFFORT
         assert info.qos_profile.durability is DurabilityPolicy.VOLATILE
+        node.create_publisher(String, 'of_the_profile', qos_profile_system_default)
+        [info] = node.get_publishers_info_by_topic('of_the_profile')
+        assert info.qos_profile.reliability is ReliabilityPolicy.RELIABLE
+        assert info.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
     finally:
         node.destroy_node()
         rclpy.shutdown(context=context)
