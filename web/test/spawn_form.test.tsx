@@ -133,3 +133,16 @@ test('no place is offered before it is known where the robots stand', async () =
   await drawn();
   assert.equal(x.value, '0');
 });
+
+test('an offered place stays while it is not known yet where another robot stands', async () => {
+  const { app, ground, field } = await shown();
+  const truth = '/ground_truth';
+  const simulators = [{ id: '/sim', entities: ['amr'], world: '', worlds: [] }];
+  const say = (robots: RobotInfo[]): void =>
+    app.say({ type: 'graph', robots, simulators, hint: null, sensors: [], navigators: [] });
+  say([{ ...ROBOT, truth }]);
+  say([{ ...ROBOT, truth }, { ...ROBOT, id: '/robot1', name: 'robot1', truth: '/robot1/ground_truth' }]);
+  await drawn();
+  assert.equal(ground.robots.length, 1);
+  assert.deepEqual([field('x').value, field('y').value], ['0', '1.2']);
+});

@@ -33,6 +33,7 @@ export class Offer {
   readonly isTaken = signal(false);
   private isNamed = false; // by hand
   private isPlaced = false;
+  private hasSeen = false;
   private state: State | null = null;
   private count = 0;
   private marking: ReturnType<typeof setTimeout> | undefined;
@@ -59,7 +60,7 @@ export class Offer {
     if (!this.isNamed) {
       this.name.value = freeName(this.app.store.simulator?.entities ?? []);
     }
-    if (!this.isPlaced && this.isBlind) {
+    if (!this.isPlaced && this.isBlind()) {
       this.x.value = this.y.value = ''; // what was offered before the robots came
     } else if (!this.isPlaced && (this.x.peek() === '' || !this.isFree())) {
       const place = freePlace(this.radius, this.robots, this.shapes);
@@ -69,10 +70,15 @@ export class Offer {
     this.isTaken.value = this.x.peek() !== '' && !this.isFree();
   }
 
-  /** Whether it is not known yet where robots stand that are there; for some states at most. */
-  private get isBlind(): boolean {
+  /**
+   * Whether it is not known yet where robots stand that are there; for some states at most. Once it
+   * is, another one that comes takes no place back: it could be just when Spawn is pressed.
+   */
+  private isBlind(): boolean {
     const truths = this.app.store.robots.filter(({ truth }) => truth !== null);
-    return this.count < PATIENCE && this.robots.length < truths.length;
+    const isPartial = this.robots.length < truths.length;
+    this.hasSeen ||= truths.length > 0 && !isPartial;
+    return isPartial && !this.hasSeen && this.count < PATIENCE;
   }
 
   rename(name: string): void {
