@@ -16,6 +16,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from support.paths import TESTS
 from support.running_programs import PATIENCE, Program
+from support.waiting import until
 from test_page_memory import LongDrive
 from test_viewer_pages import serving
 
@@ -208,11 +209,14 @@ def test_a_picture_that_stands_still_is_drawn_finely_once(display):
         const {width, clientWidth} = document.querySelector('canvas.scene');
         return width > 1.5 * devicePixelRatio * clientWidth;
       })()"""
-    display.wait_until(fine)
-    before = display.evaluate('amr.now.scene.frames')
-    for _ in range(20):
-        display.evaluate('new Promise(requestAnimationFrame)')
-    assert display.evaluate('amr.now.scene.frames') == before
+    frames = """(async () => {
+        const before = amr.now.scene.frames;
+        for (let count = 0; count < 20; count += 1) await new Promise(requestAnimationFrame);
+        return amr.now.scene.frames - before;
+      })()"""
+    # The first picture is fine too, and what comes after it is drawn.
+    until(lambda: display.evaluate(fine) and display.evaluate(frames) == 0)
+    assert display.evaluate(fine)
 
 
 def test_frames_and_their_names_are_shown_and_hidden(display):
