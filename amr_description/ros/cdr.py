@@ -151,6 +151,12 @@ def read_transforms(data: bytes) -> list[FramePose]:
     return [_read_transform(reader) for _ in range(reader.count())]
 
 
+def read_stamped_transforms(data: bytes) -> list[tuple[int, FramePose]]:
+    """``tf2_msgs/msg/TFMessage``, with the stamps, ns."""
+    reader = Reader(data)
+    return [(reader.stamp(), _read_frame_pose(reader)) for _ in range(reader.count())]
+
+
 def read_joint_state(data: bytes) -> JointValues:
     """``sensor_msgs/msg/JointState``."""
     reader = _after_header(data)
@@ -208,6 +214,10 @@ def _after_header(data: bytes) -> Reader:
 
 def _read_transform(reader: Reader) -> FramePose:
     reader.stamp()
+    return _read_frame_pose(reader)
+
+
+def _read_frame_pose(reader: Reader) -> FramePose:
     parent = reader.text()
     return FramePose(reader.text(), parent, reader.doubles(7))
 

@@ -80,11 +80,24 @@ class Buffer:
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """Add a moving transform; one that cannot be used is ignored with a warning."""
-        self._insert(transform, authority, static=False)
+        self.insert(stamped_transform(transform), authority, static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """Add a transform that is valid at all times."""
-        self._insert(transform, authority, static=True)
+        self.insert(stamped_transform(transform), authority, static=True)
+
+    def insert(self, stamped: StampedTransform, authority: str, *, static: bool) -> None:
+        """Add a transform as :meth:`set_transform` and :meth:`set_transform_static` do."""
+        if not static and self._is_stale(stamped.time):
+            return
+        with self._changed:
+            warning = self._core.set_transform(stamped, authority, static=static)
+            self._changed.notify_all()
+            due = warning is not None and self._is_due(warning)
+        if due:
+            self._warn(warning)
+        if self._awaited:
+            self._complete_futures()
 
     def lookup_transform(
         self,
@@ -210,30 +223,16 @@ class Buffer:
         with self._changed:
             self._core.clear()
 
-    def _insert(self, transform: TransformStamped, authority: str, *, static: bool) -> None:
-        if not static and self._is_stale(transform):
-            return
-        with self._changed:
-            warning = self._core.set_transform(
-                stamped_transform(transform), authority, static=static
-            )
-            self._changed.notify_all()
-            due = warning is not None and self._is_due(warning)
-        if due:
-            self._warn(warning)
-        if self._awaited:
-            self._complete_futures()
-
-    def _is_stale(self, transform: TransformStamped) -> bool:
+    def _is_stale(self, stamp: int) -> bool:
         """
-        Return whether a transform was sent before time jumped back.
+        Return whether a transform of that stamp, ns, was sent before time jumped back.
 
         It would become the latest of its frame, so that all that follow were too old.
         """
         if not self._time_jumps.is_recent:
             return False
         self._time_jumps.observe(self._clock.now().nanoseconds)
-        return self._time_jumps.is_stale(nanoseconds(transform.header.stamp))
+        return self._time_jumps.is_stale(stamp)
 
     def _wait(self, lookup: _Lookup, timeout: Duration) -> TransformStamped:
         self._wait_until(lookup, timeout)

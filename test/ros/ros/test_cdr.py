@@ -26,7 +26,8 @@ SEVEN = st.tuples(*[NUMBERS] * 7)
 JOINTS, INTERFACES = cdr.JointStateReader(), cdr.DynamicJointStateReader()
 READERS = (
     JOINTS, INTERFACES,
-    cdr.read_clock, cdr.read_transforms, cdr.read_joint_state, cdr.read_odometry,
+    cdr.read_clock, cdr.read_transforms, cdr.read_stamped_transforms,
+    cdr.read_joint_state, cdr.read_odometry,
     cdr.read_dynamic_joint_state, cdr.read_twist, cdr.read_twist_stamped,
     cdr.read_statistics_names, cdr.read_statistics_values,
 )  # fmt: skip
@@ -45,6 +46,7 @@ WHOLE: dict = {
     cdr.read_twist: Twist(linear=Vector3(x=0.5), angular=Vector3(z=-1.0)),
     cdr.read_twist_stamped: TwistStamped(twist=Twist(linear=Vector3(x=0.5))),
 }
+WHOLE[cdr.read_stamped_transforms] = WHOLE[cdr.read_transforms]
 WHOLE[JOINTS] = WHOLE[cdr.read_joint_state]
 WHOLE[INTERFACES] = WHOLE[cdr.read_dynamic_joint_state]
 
@@ -101,6 +103,23 @@ def test_transforms(frames):
         message.transforms.append(each)
     read = cdr.read_transforms(serialize_message(message))
     assert [(each.parent, each.name, each.pose) for each in read] == frames
+
+
+@given(st.lists(st.tuples(st.integers(-(2**31), 2**31 - 1), TEXTS, SEVEN), max_size=3))
+def test_stamps_of_transforms(frames):
+    message = TFMessage()
+    for sec, name, pose in frames:
+        each = TransformStamped(child_frame_id=name)
+        each.header.stamp.sec = sec
+        each.header.stamp.nanosec = 7
+        fill(each.transform, pose)
+        message.transforms.append(each)
+    data = serialize_message(message)
+    read = cdr.read_stamped_transforms(data)
+    assert [(time, each.name, each.pose) for time, each in read] == [
+        (sec * 1_000_000_000 + 7, name, pose) for sec, name, pose in frames
+    ]
+    assert [each for _, each in read] == cdr.read_transforms(data)
 
 
 @given(TEXTS, st.lists(TEXTS, max_size=4), st.lists(NUMBERS, max_size=4), st.lists(NUMBERS))

@@ -14,7 +14,9 @@ from rclpy.clock import ROSClock
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
+from rclpy.serialization import serialize_message
 from rclpy.time import Time
+from tf2_msgs.msg import TFMessage
 from tf2_msgs.srv import FrameGraph
 
 from amr_description import tf2_ros
@@ -253,6 +255,64 @@ def test_a_listener_receives_moving_and_earlier_static_transforms(own):
     assert "laser: \n  parent: 'base'\n  broadcaster: 'default_authority'" in answer.frame_yaml
     listener.unregister()
     assert publishers_of(hearer, '/nothing') == []
+
+
+class OwnListener(TransformListener):
+    """As a program of users may have it."""
+
+    def callback(self, data):
+        self.messages = data
+        super().callback(data)
+
+
+class OwnBuffer(Buffer):
+    def set_transform(self, transform, authority):
+        self.messages = transform
+        super().set_transform(transform, authority)
+
+
+@pytest.mark.parametrize('kind', ['listener', 'buffer', 'stranger'])
+def test_methods_of_its_own_get_messages(own, kind):
+    """Others are fed with bytes."""
+    talker, hearer = own(Node('talker')), own(Node('hearer'))
+    moving = TransformBroadcaster(talker)
+    buffer = OwnBuffer() if kind == 'buffer' else Buffer()
+    got = []
+    if kind == 'stranger':
+        buffer = SimpleNamespace(
+            set_transform=lambda transform, authority: got.append((transform, authority))
+        )
+    listener = (OwnListener if kind == 'listener' else TransformListener)(buffer, hearer)
+
+    def message_heard():
+        moving.sendTransform(message('odom', 'base', 1.0, 10))
+        if kind == 'stranger':
+            return got and got[0][0]
+        if kind == 'listener':
+            return (each := getattr(listener, 'messages', None)) and each.transforms[0]
+        return getattr(buffer, 'messages', None)
+
+    found = wait_until(
+        hearer, lambda: message_heard() or None, timeout=PATIENCE.nanoseconds * 1e-9
+    )
+    assert found == message('odom', 'base', 1.0, 10)
+    assert not any(each.raw for each in listener._subscriptions)
+    listener.unregister()
+
+
+def test_bytes_that_are_no_plain_cdr_are_read_as_rclpy_does(own):
+    hearer = own(Node('hearer'))
+    buffer = Buffer()
+    listener = TransformListener(buffer, hearer)
+    assert all(each.raw for each in listener._subscriptions)
+    data = serialize_message(TFMessage(transforms=[message('odom', 'bXse', 1.0, 10)]))
+    listener._take(data.replace(b'bXse', b'b\xffse'))
+    assert [each.name for each in buffer.records()] == ['b\ufffdse']
+    for bad in (b'', b'\0\1\0\0', data[:-9]):
+        listener._take(bad)
+        listener._take_static(bad)
+    assert len(buffer.records()) == 1
+    listener.unregister()
 
 
 def test_a_publisher_whose_node_is_not_known_yet_has_no_name():
