@@ -1,6 +1,9 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Run the unit tests: bundle each test/*.test.ts(x) into a directory of its own and `node --test` it. */
+/**
+ * Run the unit tests: bundle all test/*.test.ts(x), or those that are named, into one file and
+ * `node --test` it. A process for each of the files would load the same libraries fifty times.
+ */
 import { spawnSync } from 'node:child_process';
 import { mkdtemp, readdir, rm } from 'node:fs/promises';
 import path from 'node:path';
@@ -19,12 +22,15 @@ if (tests.length === 0) {
 
 // Below node_modules, where what is not bundled is found.
 const out = await mkdtemp(path.join(here, 'node_modules', '.amr-web-test-'));
+const bundle = path.join(out, 'tests.mjs');
 try {
   await esbuild.build({
     absWorkingDir: here,
-    entryPoints: tests.map((name) => path.join('test', name)),
-    outdir: out,
-    outExtension: { '.js': '.mjs' },
+    stdin: {
+      contents: tests.map((name) => `import './test/${name}';`).join('\n'),
+      resolveDir: here,
+    },
+    outfile: bundle,
     bundle: true,
     external: ['happy-dom'], // large, and of no use to most tests
     format: 'esm',
@@ -33,10 +39,9 @@ try {
     sourcemap: 'inline',
     logLevel: 'warning',
   });
-  const files = tests.map((name) => path.join(out, name.replace(/\.tsx?$/, '.mjs')));
   const { status } = spawnSync(
     process.execPath,
-    ['--enable-source-maps', '--test', '--test-reporter=spec', ...files],
+    ['--enable-source-maps', '--test', '--test-reporter=spec', bundle],
     { stdio: 'inherit' },
   );
   process.exitCode = status ?? 1;
