@@ -33,6 +33,14 @@ from pathlib import Path
 PROFILE = Path(__file__).with_suffix('.xml')
 """The limit and the times by themselves; the profiles of ``transport.py`` have them too."""
 
+DELIVERY_TIME = 4.0
+"""
+s, at most, until those who are found have acknowledged what is published reliably. As a rule it
+takes 0.1 s, or 0.2 s more until the next heartbeat. But who is found need not have found the
+publisher yet, and until then hears nothing of it: on a busy machine for half a second, and for
+3 s if the announcement is lost. A publisher that ends before takes its messages with it.
+"""
+
 _SUPER_CLIENT = 'ROS_SUPER_CLIENT'
 
 

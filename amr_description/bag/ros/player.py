@@ -31,6 +31,7 @@ from amr_description.bag.ros.topic_types import topic_class
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.topic_selection import is_service_event
 from amr_description.errors import AmrError, BagError
+from amr_description.ros.discovery import DELIVERY_TIME
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import RCLError
 from amr_description.streams import print_traceback
@@ -40,9 +41,6 @@ _SECOND = 10**9
 _LATEST = 2**31 * _SECOND  # ns; builtin_interfaces/Time has no more
 _SPARE = 2_000_000  # ns; with more than that to wait, messages are read ahead
 _LONGEST_WAIT = 3600.0  # s
-# s, for all topics. Subscriptions acknowledge within 0.3 s; one to which our announcement was
-# lost, after it is repeated, 3 s later.
-_ACKNOWLEDGED = 4.0
 _ANSWERED = 2.0  # s; a service that takes longer has the request for sure
 _POLL = 0.1  # s
 NOT_WAITED_FOR = -1
@@ -407,7 +405,7 @@ class Player:
             return
         timeout = self._options.acked_timeout
         given = timeout != NOT_WAITED_FOR
-        deadline = wall.monotonic() + _ACKNOWLEDGED
+        deadline = wall.monotonic() + DELIVERY_TIME
         for name, publisher in self._publishers.items():
             if not _is_reliable(publisher) or not publisher.get_subscription_count():
                 continue

@@ -30,10 +30,6 @@ if TYPE_CHECKING:
     from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.session import Session
 
-# s, at most. A subscriber discovers us up to 0.1 s after we have discovered it, on a busy machine
-# even later, and until then messages of a publisher that ends are lost. (Fast DDS acknowledges
-# within 0.1 s, or at the next heartbeat, 0.2 s later.)
-_DELIVERY_TIME = 0.5
 _HINT_AFTER = 3  # s of waiting for subscriptions
 
 
@@ -119,6 +115,7 @@ def main(args: Namespace) -> int:
     from amr_description.cli.names import full_name
     from amr_description.cli.session import open_session
     from amr_description.cli.yaml_input import read_mapping
+    from amr_description.ros.discovery import DELIVERY_TIME
     from amr_description.ros.message_fields import set_fields
     from amr_description.ros.message_types import message_type
 
@@ -139,7 +136,7 @@ def main(args: Namespace) -> int:
         _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)
         print('publisher: beginning loop')
         _Loop(session, publisher, message, stamps, args.print).run(times, args.rate, others)
-        publisher.wait_for_all_acked(Duration(seconds=_DELIVERY_TIME))
+        session.spin(lambda: publisher.wait_for_all_acked(Duration()), DELIVERY_TIME)
         session.serve(timeout=args.keep_alive)
     return 0
 
