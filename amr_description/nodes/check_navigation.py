@@ -27,7 +27,7 @@ from amr_description.navigation.contract.observations import Frames, Observation
 from amr_description.navigation.contract.report import as_json, as_text
 from amr_description.navigation.contract.rules import examine
 from amr_description.navigation.ros.contract.collector import Collector
-from amr_description.navigation.ros.contract.driving import Drive
+from amr_description.navigation.ros.contract.driving import Drive, RivalWatch
 from amr_description.ros.arguments import other_arguments
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node, wait_until
@@ -92,19 +92,29 @@ def check_navigation(args: list[str] | None) -> int:
     with ros(words) as stop:
         node = client_node('check_navigation')
         collector = Collector(node, frames, is_stamped=options.stamped)
-        _listen(collector, options.duration)
+        _listen(collector, options.duration, RivalWatch(collector) if options.drive else None)
         if options.drive:
             _drive(collector, stop)
         seen = collector.observations()
         return _report(seen, is_json=options.json)
 
 
-def _listen(collector: Collector, duration: float) -> None:
-    """Wait until enough has come, but no longer than ``duration`` s."""
+def _listen(collector: Collector, duration: float, rivals: RivalWatch | None) -> None:
+    """
+    Wait until enough has come, but no longer than ``duration`` s.
+
+    Raises UsageError: somebody commands the robot that is to be driven afterwards.
+    """
     logger = collector.node.get_logger()
+
+    def is_over() -> bool | None:
+        if rivals is not None:
+            rivals.look()
+        return not collector.awaited() or None
+
     wait_until(
         collector.node,
-        lambda: not collector.awaited() or None,
+        is_over,
         lambda: logger.info(f'waiting for {", ".join(collector.awaited())}'),
         every=_REPORT_PERIOD,
         timeout=duration,

@@ -328,7 +328,8 @@ def test_a_namespace_without_a_robot(stack):
 def test_it_does_not_fight_over_the_robot(stack):
     rival = Node('rival')  # it answers no services, as nobody spins it
     rival.create_publisher(Twist, '/cmd_vel_teleop', 1)
-    with check(*LONG, '--drive', *TELEOP) as program:
+    # It does not wait for scans, which never come, to say so.
+    with check(*LONG, '--drive', *TELEOP, '-r', 'scan:=/no_scan') as program:
         assert program.end() == 2
         assert 'FATAL' in program.output
         assert '--drive: /rival publishes commands on /cmd_vel_teleop' in program.output

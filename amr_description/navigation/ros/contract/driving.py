@@ -24,11 +24,12 @@ from amr_description.navigation.contract.observations import (
     OdometrySeen,
     Phase,
     STAMPED_TWIST_TYPE,
+    Topic,
     TWIST_TYPE,
 )
 from amr_description.navigation.contract.series import names_of
 from amr_description.navigation.ros.contract.collector import Collector, COMMAND_TOPIC
-from amr_description.navigation.ros.contract.graph import topic_of
+from amr_description.navigation.ros.contract.graph import topic_of, UNNAMED
 from amr_description.ros.service_calls import wait_until
 
 _PERIOD = 0.05
@@ -41,7 +42,41 @@ _BRAKING_TIME = 3 * LONGEST_BRAKING
 _STANDING_TIME = NANOSECONDS // 4
 _SILENCE = 5.0
 """s by the system clock, after which odometry has ended."""
+_LOOK_PERIOD = 0.25
+"""s between two looks for others that command the robot."""
 _ACK_TIMEOUT = Duration(seconds=2.0)
+
+
+class RivalWatch:
+    """Looks for others that command the robot, before it is driven."""
+
+    def __init__(self, collector: Collector) -> None:
+        """Look from now on."""
+        self._collector = collector
+        self._looked = -_LOOK_PERIOD
+
+    def look(self) -> None:
+        """
+        Look, unless it was done a moment ago; may be called after every message.
+
+        Raises:
+            UsageError: somebody else publishes commands to a robot that has odometry.
+        """
+        now = time.monotonic()
+        if not self._collector.odometry or now - self._looked < _LOOK_PERIOD:
+            return
+        self._looked = now
+        topic = topic_of(self._collector.node, COMMAND_TOPIC)
+        if all(each.node != UNNAMED for each in topic.publishers):  # else it has its name soon
+            _refuse_rivals(topic)
+
+
+def _refuse_rivals(topic: Topic) -> None:
+    if topic.publishers:
+        raise UsageError(
+            f'--drive: {names_of(topic.publishers)} publishes commands on {topic.name}, and '
+            'two would fight over the robot; end it, or leave --drive out'
+        )
 
 
 class Drive:
@@ -62,11 +97,7 @@ class Drive:
         self._node = collector.node
         self._check = check
         topic = topic_of(self._node, COMMAND_TOPIC)
-        if topic.publishers:
-            raise UsageError(
-                f'--drive: {names_of(topic.publishers)} publishes commands on {topic.name}, and '
-                'two would fight over the robot; end it, or leave --drive out'
-            )
+        _refuse_rivals(topic)
         kinds = {each.type_name for each in topic.subscriptions}
         if not kinds & {TWIST_TYPE, STAMPED_TWIST_TYPE}:
             raise UsageError(

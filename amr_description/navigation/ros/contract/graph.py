@@ -18,6 +18,9 @@ from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.ros.type_mismatch import other_topics
 
+UNNAMED = 'a node without a name'
+"""Stands for the node of an endpoint that is not known, or not yet."""
+
 _USE_SIM_TIME = 'use_sim_time'
 _SERVICE = '/get_parameters'
 _PATIENCE = 3.0
@@ -58,7 +61,7 @@ def topics_elsewhere(node: Node, *types: str) -> dict[str, tuple[Topic, ...]]:
 def _endpoints(found: Iterable[TopicEndpointInfo], own: str) -> tuple[Endpoint, ...]:
     endpoints = [
         Endpoint(
-            endpoint_node(each) or 'a node without a name',
+            endpoint_node(each) or UNNAMED,
             each.topic_type,
             each.qos_profile.reliability is not ReliabilityPolicy.BEST_EFFORT,
             each.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL,
