@@ -16,7 +16,7 @@ import shlex
 import subprocess
 import sys
 
-from fixtures.cli.commands import ros2, running_node, shell
+from fixtures.cli.commands import piped, ros2, running_node, shell
 import pytest
 from support.paths import TESTS
 
@@ -93,9 +93,12 @@ def is_ours(item):
 
 def run(line, folder):
     """By bash where it has more to do than to split words."""
+    first, _, rest = line.partition(' | ')
     try:
-        is_plain = line.startswith('ros2 ') and not set('|&;<>$`*') & set(line)
-        return ros2(*shlex.split(line)[1:]) if is_plain else shell(line, folder)
+        if not first.startswith('ros2 ') or set('|&;<>$`*') & set(first):
+            return shell(line, folder)
+        args = shlex.split(first)[1:]
+        return piped(args, rest) if rest else ros2(*args)
     except subprocess.TimeoutExpired as error:
         return error
 
