@@ -18,7 +18,7 @@ import tempfile
 
 from hypothesis import settings
 import pytest
-from support import failures, forked_workers, leftovers, ordering, preloaded
+from support import failures, forked_workers, leftovers, ordering, preloaded, udp_contexts
 
 from amr_description.testing import program
 from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
@@ -199,6 +199,7 @@ def pytest_sessionstart():
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_finish():
+    udp_contexts.use_udp_only()
     gc.freeze()  # also what is garbage already: a search for it takes longer than it is worth
     # Seldom: that takes 4 % of the processor time of test/unit, where Hypothesis hears of each.
     gc.set_threshold(10_000)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from amr_description.cli.session import Session
 
-_HINT_AFTER = 2.0  # s of waiting until a hint is printed
+_HINT_AFTER = 2.0  # s of waiting until a hint is looked for, and between two looks
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -95,9 +95,7 @@ def _call(session: 'Session', client: 'Client', request: Any, timeout: float | N
 
 def _wait_for_service(session: 'Session', client: 'Client', timeout: float | None) -> None:
     """Wait for the service, and print that. Raises AmrError."""
-    from amr_description.cli import graph
     from amr_description.cli.discovery import is_there_within
-    from amr_description.ros.message_types import type_name
     from amr_description.ros.service_calls import ServiceReadiness
 
     is_ready = ServiceReadiness(session.node, client)
@@ -105,22 +103,33 @@ def _wait_for_service(session: 'Session', client: 'Client', timeout: float | Non
         return
     print('waiting for service to become available...')
     left = float('inf') if timeout is None else timeout
-    if session.spin(is_ready, min(left, _HINT_AFTER)):
+    hint = ''
+    while True:
+        # Again until something is known: the server may be discovered after the first time.
+        wait = left if hint else min(left, _HINT_AFTER)
+        if session.spin(is_ready, wait):
+            return
+        left -= wait
+        if left <= 0.0:
+            break
+        if hint := _explain_absence(session, client):
+            print(f'WARNING: {hint}', file=sys.stderr)
+    if is_there_within(session, is_ready, 0.0):
         return
-    hint = graph.explain_absent_service(
+    reason = '' if hint else _explain_absence(session, client)
+    raise AmrError(
+        f"Service '{client.service_name}' did not become available within {timeout:g} s"
+        + (f': {reason}' if reason else '')
+    )
+
+
+def _explain_absence(session: 'Session', client: 'Client') -> str:
+    """Return why the service is not there, '' if unknown."""
+    from amr_description.cli import graph
+    from amr_description.ros.message_types import type_name
+
+    return graph.explain_absent_service(
         client.service_name,
         type_name(client.srv_type),
         graph.services(session.node, hidden=True),
-    )
-    if left > _HINT_AFTER:
-        if hint:
-            print(f'WARNING: {hint}', file=sys.stderr)
-        if session.spin(is_ready, left - _HINT_AFTER):
-            return
-        hint = ''
-    elif is_there_within(session, is_ready, 0.0):
-        return
-    raise AmrError(
-        f"Service '{client.service_name}' did not become available within {timeout:g} s"
-        + (f': {hint}' if hint else '')
     )

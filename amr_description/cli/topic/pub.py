@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from amr_description.cli.mismatch import TypeMismatchReporter
     from amr_description.cli.session import Session
 
-_HINT_AFTER = 3  # s of waiting for subscriptions
+_HINT_AFTER = 3  # s of waiting for subscriptions until a hint is looked for, every second then
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -155,6 +155,7 @@ def _wait_for_subscriptions(
 
     left = float('inf') if timeout is None else timeout
     waited = 0
+    hinted = False
     while not matched():
         print(f'Waiting for at least {awaited} matching subscription(s)...')
         if left <= 0.0:
@@ -166,12 +167,17 @@ def _wait_for_subscriptions(
         left -= 1.0
         waited += 1
         others.report()
-        if waited == _HINT_AFTER and not publisher.get_subscription_count():
-            _print_hint(session, publisher)
+        if waited >= _HINT_AFTER and not hinted and not publisher.get_subscription_count():
+            hinted = _print_hint(session, publisher)
 
 
-def _print_hint(session: 'Session', publisher: 'Publisher') -> None:
-    """Name the topics that could be meant, where nobody subscribes to the one that is given."""
+def _print_hint(session: 'Session', publisher: 'Publisher') -> bool:
+    """
+    Name the topics that could be meant, where nobody subscribes to the one that is given.
+
+    Returns:
+        False: none is known.
+    """
     from amr_description.cli import graph
 
     node = session.node
@@ -182,6 +188,7 @@ def _print_hint(session: 'Session', publisher: 'Publisher') -> None:
             f'{", ".join(found)}',
             file=sys.stderr,
         )
+    return bool(found)
 
 
 class _Loop:

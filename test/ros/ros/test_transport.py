@@ -15,6 +15,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, qos_profile_system_default, ReliabilityPolicy
 from std_msgs.msg import String
 from support.running_programs import PATIENCE, Program
+from support.udp_contexts import as_any_program
 
 from amr_description.ros.discovery import PROFILE
 from amr_description.ros.service_calls import wait_until
@@ -187,7 +188,8 @@ def test_the_two_profiles_of_this_host_differ_in_where_they_listen_alone():
 
 
 def test_programs_with_shared_memory_are_reached():
-    rclpy.init(args=[])  # as any program does
+    with as_any_program():
+        rclpy.init(args=[])
     try:
         node, heard = Node('any_program'), []
         assert '/dev/shm/fastrtps' in Path('/proc/self/maps').read_text(encoding='utf-8')
