@@ -76,6 +76,12 @@ def executable():
 OPEN_PAGES = weakref.WeakSet()
 """Those that are open: when a test fails, its pictures are kept."""
 
+_FRAMES_DRAWN = """(async () => {
+    const before = amr.now.scene.frames;
+    for (let count = 0; count < 20; count += 1) await new Promise(requestAnimationFrame);
+    return amr.now.scene.frames - before;
+  })()"""
+
 
 class BrowserError(AssertionError):
     """The browser refused, or the page threw."""
@@ -236,6 +242,10 @@ class Page:
     def call(self, method, params=None):
         """Call a method of the protocol in this tab."""
         return self._browser.call(method, params, self._session)
+
+    def stands_still(self):
+        """Whether the scene is not drawn for 20 frames of the screen: robots and camera rest."""
+        return self.evaluate(_FRAMES_DRAWN) == 0
 
     def hear(self, method, params):
         """Take note of an event; called by the thread that reads."""

@@ -68,8 +68,13 @@ class Bench:
             found[:] = self.findings(probes)
             return holds(found) or None
 
-        assert wait_until(self.doctor, looked, timeout=PATIENCE), found
+        assert wait_until(self.doctor, looked, timeout=PATIENCE), (found, self.announced())
         return found
+
+    def announced(self):
+        """The nodes that are in the graph, by their names and by what all of them publish."""
+        ends = self.doctor.get_publishers_info_by_topic('/parameter_events')
+        return sorted(self.doctor.get_node_names()), sorted(each.node_name for each in ends)
 
     def first(self, rule, text, probes=ALL):
         """
@@ -106,11 +111,23 @@ class Bench:
             nodes.end()
 
     def remove(self, node):
-        """End a node, if it is there still."""
+        """
+        End a node, if it is there still, and wait until it is gone.
+
+        rclpy keeps it until the executor has let go of it. Of another node of that name in its
+        context, made meanwhile, rmw would never know what is its own: it looks for that by name.
+        """
         if node in self.nodes.nodes:
+            name = node.get_name()
+            before = max(1, self.doctor.get_node_names().count(name))
             self.nodes.nodes.remove(node)
             self.nodes.executor.remove_node(node)
             node.destroy_node()
+
+            def is_gone():
+                return self.doctor.get_node_names().count(name) < before or None
+
+            assert wait_until(self.doctor, is_gone, timeout=PATIENCE), self.announced()
 
     def set_parameter(self, node, name, value):
         """Set a parameter of a node."""

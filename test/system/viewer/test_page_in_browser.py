@@ -272,6 +272,7 @@ def test_the_joystick(page, ears):
 @pytest.mark.parametrize('modifier', ['Shift', 'Control'])
 def test_a_drag_with_shift_moves_and_one_with_ctrl_pulls_the_robot(page, ears, modifier):
     x, y = page.centre_of('canvas.scene')  # the camera follows the robot
+    ears.wait(page.stands_still)  # it has come to where the robot was put back before
     begin = ears.position
     page.mouse('mousePressed', x, y, [modifier])
     page.mouse('mouseMoved', x + 500, y, [modifier])

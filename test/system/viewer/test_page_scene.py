@@ -209,13 +209,8 @@ def test_a_picture_that_stands_still_is_drawn_finely_once(display):
         const {width, clientWidth} = document.querySelector('canvas.scene');
         return width > 1.5 * devicePixelRatio * clientWidth;
       })()"""
-    frames = """(async () => {
-        const before = amr.now.scene.frames;
-        for (let count = 0; count < 20; count += 1) await new Promise(requestAnimationFrame);
-        return amr.now.scene.frames - before;
-      })()"""
     # The first picture is fine too, and what comes after it is drawn.
-    until(lambda: display.evaluate(fine) and display.evaluate(frames) == 0)
+    until(lambda: display.evaluate(fine) and display.stands_still())
     assert display.evaluate(fine)
 
 
