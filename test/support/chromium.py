@@ -78,9 +78,11 @@ OPEN_PAGES = weakref.WeakSet()
 
 _FRAMES_DRAWN = """(async () => {
     const before = amr.now.scene.frames;
-    for (let count = 0; count < 20; count += 1) await new Promise(requestAnimationFrame);
+    await new Promise((done) => setTimeout(done, 300));
+    for (let count = 0; count < 3; count += 1) await new Promise(requestAnimationFrame);
     return amr.now.scene.frames - before;
   })()"""
+"""Longer than the page waits for a better picture, and as long as a busy one needs to begin it."""
 
 
 class BrowserError(AssertionError):
@@ -244,7 +246,7 @@ class Page:
         return self._browser.call(method, params, self._session)
 
     def stands_still(self):
-        """Whether the scene is not drawn for 20 frames of the screen: robots and camera rest."""
+        """Whether the scene is not drawn for some time: robots and camera rest."""
         return self.evaluate(_FRAMES_DRAWN) == 0
 
     def hear(self, method, params):
