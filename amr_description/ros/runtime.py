@@ -58,6 +58,7 @@ from rclpy.task import Future
 
 from amr_description.errors import AmrError, ParameterError
 from amr_description.ros.discovery import use_whole_graph
+from amr_description.ros.participant_end import bound_listener_wait
 from amr_description.ros.process_end import skip_destructors
 from amr_description.ros.rclpy_internals import (
     cancel_tasks,
@@ -141,6 +142,7 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
             use_whole_graph()
             with argument_errors(), udp_only():
                 rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+            bound_listener_wait()
             yield stop
         finally:
             stop.leave()

@@ -51,6 +51,7 @@ from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
 from amr_description.ros.discovery import use_whole_graph
 from amr_description.ros.local_participants import is_on_the_network
+from amr_description.ros.participant_end import bound_listener_wait
 from amr_description.ros.transport import udp_only
 from amr_description.testing import bags
 from amr_description.testing.lock_step import Condition, LockStep
@@ -550,6 +551,7 @@ def _client(transport: AbstractContextManager[None]) -> tuple[Context, Node]:
     context = Context()
     with transport:
         rclpy.init(args=[], context=context)
+    bound_listener_wait()
     return context, _node('simulation_client', context)
 
 

@@ -26,6 +26,7 @@ it always has, and comes up without the 2 s of processor time that imports take.
 import atexit
 import contextlib
 import ctypes
+import faulthandler
 import fcntl
 import functools
 import gc
@@ -58,6 +59,8 @@ from amr_description.forking import (
 )
 
 _MOST_FILES = 16
+_LAST_WORDS = 5.0
+"""s for a program that is aborted to say where its threads stand."""
 _LENGTH = struct.Struct('<I')
 _PID = struct.Struct('<i')
 _PR_SET_NAME = 15
@@ -140,11 +143,22 @@ class Popen(subprocess.Popen):
 
 
 def run(command, *, timeout, **options):
-    """``subprocess.run(command, capture_output=True, text=True)``, by this ``Popen``."""
+    """
+    ``subprocess.run(command, capture_output=True, text=True)``, by this ``Popen``.
+
+    A program that does not end in time is aborted: it says where its threads stand, in what the
+    TimeoutExpired has of its stderr.
+    """
     pipes = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, 'text': True}
     with Popen(command, **pipes, **options) as process:
         try:
             out, err = process.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired as error:
+            process.send_signal(signal.SIGABRT)
+            with contextlib.suppress(subprocess.TimeoutExpired):  # a child of it has its pipes
+                error.output, error.stderr = process.communicate(timeout=_LAST_WORDS)
+            process.kill()
+            raise
         except BaseException:
             process.kill()
             raise
@@ -225,8 +239,10 @@ def _server(modules):
 class _Server:
     """The test's side of the interpreter that is forked; it ends with this process."""
 
+    _lock = threading.Lock()
+    """Of all servers: what takes orphans is the whole process, or is not."""
+
     def __init__(self, connection):
-        self._lock = threading.Lock()
         self._libc = ctypes.CDLL(None, use_errno=True)
         self._socket = connection
 
@@ -314,6 +330,7 @@ def _become(request, files):
     os.chdir(request['folder'])
     _show(request['command'])
     _take_streams()
+    faulthandler.enable(2)  # run() asks it for what it says at SIGABRT
 
 
 def _take_files(files):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A program of the preloaded interpreter is what a started one is: its parts, its end."""
 
+from concurrent.futures import ThreadPoolExecutor
 import json
 import os
 from pathlib import Path
@@ -27,6 +28,7 @@ print(json.dumps({
     'terminals': [os.isatty(fd) for fd in range(3)],
 }))
 """
+NODES = 'amr_description.nodes'
 WAYS_TO_START = (subprocess.Popen, preloaded.Popen)
 
 
@@ -189,6 +191,17 @@ def test_it_dies_with_nobody_but_is_reaped_by_the_test():
     assert not Path(f'/proc/{process.pid}').exists()
 
 
+def test_programs_of_both_servers_that_threads_start_at_once_are_children():
+    def started(number):
+        of_ros = ['-m', f'{NODES}.talker', '--ros-args', '-r', 'bad']
+        words = ['-c', 'raise SystemExit(3)'] if number % 2 else of_ros
+        with preloaded.Popen([sys.executable, *words], stderr=subprocess.DEVNULL) as process:
+            return process.wait(PATIENCE)
+
+    with ThreadPoolExecutor(8) as threads:
+        assert list(threads.map(started, range(40))) == [1, 3] * 20  # of others it would be 0
+
+
 @pytest.mark.parametrize(
     ('command', 'env', 'expected'),
     [
@@ -223,3 +236,10 @@ def test_what_a_test_of_robots_starts_is_forked_too_and_is_its_child():
     pid, code = parent.split()
     assert (child, code) == (f"{pid} True ['a']", '0'), done
     assert done.stderr == ''
+
+
+def test_a_program_that_does_not_end_in_time_says_where_it_stands():
+    code = 'import threading\ndef stand():\n    threading.Event().wait()\nstand()'
+    with pytest.raises(subprocess.TimeoutExpired) as caught:
+        preloaded.run([sys.executable, '-c', code], timeout=0.5)
+    assert re.search(r'line 3 in stand\b', caught.value.stderr)
