@@ -17,13 +17,14 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Set
 import math
 import os
+import time as wall
 
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.cli.session import Session
 from amr_description.ros.endpoints import endpoint_node
-from amr_description.ros.local_participants import local_participants, processes_of
+from amr_description.ros.local_participants import local_participants, may_have_made
 from amr_description.ros.node_lists import (
     NodeList,
     NodeLists,
@@ -37,6 +38,7 @@ _AT_LEAST = 0.5  # s; where completeness is not known
 _QUIET = 0.4  # s without changes until discovery is complete; Fast DDS repeats after 0.28 s
 _QUIET_WITH_SERVER = 1.5  # s; discovery by a server has several steps, 0.45 s each
 _FAREWELL = 0.2  # s after its end in which a participant may still count as found
+_SHORTEST_LIFE = 0.1  # s, of a participant
 _HOPE = 0.3  # s in which a count on this host is full, as a rule
 _LONGEST_DISCOVERY = 5.0  # s; a graph may never stop changing, and Fast DDS may pause for 3 s
 _LOOKUP_TIMEOUT = 2.0  # s to wait for a given name
@@ -111,6 +113,8 @@ class Count:
         self._lists = lists
         self._there = session.participants
         self._been_there = set(session.participants)
+        self._looked_at = session.began  # who has been there; s of the wall
+        self._unseen: set[bytes] = set()  # has come and gone since
         self._last_end = -math.inf  # s
         self._found: set[bytes] = set()
         self._current: set[bytes] = set()  # is found now, and has not ended
@@ -120,21 +124,27 @@ class Count:
         Return whether everything is found.
 
         A participant that has ended may still count as found, and hide one that is not. So all are
-        counted that have been there since before the verb's own: as many have to have been found.
-        One may have ended before it was found; after some time those are counted that run.
+        counted that have been there since before the verb's own: as many have to have been found,
+        without those that came and went between two looks. One may have ended before it was found;
+        after some time those are counted that run.
         """
+        lists = self._lists.newest()
+        hosts = {prefix[:_HOST] for prefix in _own(self._node, lists)}
+        self._current = set.union(*_participants(self._node))
+        # After that: who comes in between is not found yet, and must not stand for another one.
         before, self._there = self._there, local_participants(self._node.context.get_domain_id())
         self._been_there |= self._there
         if before - self._there:
             self._last_end = self._clock.now()
-        lists = self._lists.newest()
-        hosts = {prefix[:_HOST] for prefix in _own(self._node, lists)}
-        self._current = set.union(*_participants(self._node))
         on_this_host = {each for each in self._current if each[:_HOST] in hosts}
-        self._found |= on_this_host
+        found = on_this_host - self._found - self._unseen
+        before_this, self._looked_at = self._looked_at, wall.monotonic()
+        if self._looked_at - before_this > _SHORTEST_LIFE:  # this process had to wait its turn
+            self._unseen |= {each for each in found if not may_have_made(each, self._there)}
+        self._found |= found - self._unseen
         all_found = len(self._found) >= len(self._been_there)
         if self._been_there > self._there:
-            ended = {each for each in on_this_host if not has_process(each)}
+            ended = {each for each in on_this_host if not may_have_made(each, self._there)}
             if len(on_this_host) - len(ended) >= len(self._there):
                 self._current -= ended
                 all_found |= self._clock.now() - self._last_end >= _FAREWELL
@@ -181,16 +191,13 @@ class Quiet:
         quiet = max(self._quiet, (self._last_change - self._start) * 0.5)
         if now - self._start < self._at_least or now - self._last_change < quiet:
             return False
+        found = _found(self._node)
+        # After that, as in Count: who comes in between must not stand for another one.
         before, self._there = self._there, local_participants(self._domain)
         if before - self._there:
             self._last_change = now
             return False
-        return _all_found(self._node, len(self._there))
-
-
-def has_process(prefix: bytes) -> bool:
-    """Return whether a process is running that may have made this participant of this host."""
-    return bool(processes_of(prefix))
+        return found >= len(self._there)
 
 
 def _is_this_host_all() -> bool:
@@ -235,19 +242,18 @@ def _snapshot(node: Node) -> object:
     return sorted(node.get_node_names_and_namespaces()), topics, endpoints, services
 
 
-def _all_found(node: Node, count: int) -> bool:
+def _found(node: Node) -> int:
     """
-    Return whether as many participants as are on this host are found, with endpoints and nodes.
+    Return how many participants are found with endpoints and nodes.
 
     Fast DDS discovers a participant and each of its endpoints separately, either up to a second
     later than the other; what its nodes are called comes last, as a message. Each participant of
-    ROS both publishes and subscribes to the lists of nodes, and has a node.
+    ROS both publishes and subscribes to the lists of nodes, and has a node. As long as one has a
+    node whose name is not known it is 0.
     """
-    if len(node.get_node_names()) < count:
-        return False
-    if any(len(found) < count for found in _participants(node)):
-        return False
-    return _have_announcers_names(node)
+    if not _have_announcers_names(node):
+        return 0
+    return min(len(node.get_node_names()), *map(len, _participants(node)))
 
 
 def _have_announcers_names(node: Node, participants: Set[bytes] | None = None) -> bool:

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 import os
 import threading
+import time as wall
 
 import rclpy
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -32,6 +33,8 @@ class Session:
     stop: StopRequests
     participants: Set[tuple[int, int]] = frozenset()
     """Those of this host that were there before the node's."""
+    began: float = field(default_factory=wall.monotonic)
+    """When these were seen, s, by ``time.monotonic``."""
     clock: WaitClock = field(default_factory=WaitClock)
 
     def spin(
@@ -117,13 +120,14 @@ def open_session(
     """
     streams.keep_libraries_off_stdout()
     with ros(['--ros-args', *ros_args] if ros_args else []) as stop:
+        began = wall.monotonic()
         participants = local_participants(rclpy.get_default_context().get_domain_id())
         with argument_errors():
             node = _make_node(name or f'_ros2cli_{os.getpid()}', use_sim_time)
         spinner = executor()
         spinner.add_node(node)
         try:
-            yield Session(node, spinner, stop, participants)
+            yield Session(node, spinner, stop, participants, began)
         finally:
             stop.leave()
             spinner.shutdown()

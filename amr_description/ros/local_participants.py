@@ -108,6 +108,37 @@ def processes_of(prefix: bytes) -> list[int]:
     return [pid for pid in pids if pid & 0xFFFF == ends]
 
 
+def may_have_made(prefix: bytes, participants: Iterable[tuple[int, int]]) -> bool:
+    """
+    Return whether one of :func:`local_participants` may have that prefix of its gid.
+
+    It has not where no process that the prefix may name has its socket open. A process whose
+    sockets the system does not show may have it.
+    """
+    inodes = {inode for _, inode in participants}
+    for pid in processes_of(prefix):
+        process = Path(f'/proc/{pid}')
+        try:
+            os.listdir(process / 'fd')
+        except PermissionError:
+            if not _has_ended(process):
+                return True
+        except OSError:
+            continue
+        if not inodes.isdisjoint(_open_sockets(process)):
+            return True
+    return False
+
+
+def _has_ended(process: Path) -> bool:
+    """Return whether it has, and perhaps waits for its parent to notice."""
+    try:
+        status = (process / 'stat').read_bytes()
+    except OSError:
+        return True
+    return status.rpartition(b')')[2].split()[0] in {b'Z', b'X'}
+
+
 def _open_sockets(process: Path) -> Iterator[int]:
     """Yield the inodes; none of a process that has ended, or is another user's."""
     with suppress(OSError):

@@ -6,6 +6,7 @@ from collections import Counter
 from contextlib import contextmanager
 from dataclasses import dataclass
 import os
+import subprocess
 
 import pytest
 from rclpy.context import Context
@@ -13,8 +14,10 @@ from rclpy.node import Node
 
 from amr_description.cli import discovery
 from amr_description.ros.endpoints import UNKNOWN_NODE_NAME
+from amr_description.ros.local_participants import local_participants, may_have_made
 from amr_description.ros.node_lists import NodeList, PREFIX, TOPIC
 
+DOMAIN = int(os.environ['ROS_DOMAIN_ID'])
 THIS_HOST, OTHER_HOST = b'\x01\x0f\x00\x01', b'\x01\x0f\x00\x02'
 
 
@@ -45,9 +48,16 @@ class Endpoint:
 class FakeSession:
     """A verb whose node has found itself, and others at the given times."""
 
-    def __init__(self, others):
+    def __init__(self, others, sampling=0.0, poll=None):
+        """
+        ``sampling``: s that pass between a look at the sockets and one at the graph; ``poll``: s
+        between two of these, if not as asked.
+        """
+        self.sampling = sampling
+        self.poll = poll
         self.others = [Times(-1.0, found=0.0, name='verb'), *others]
         self.time = -0.01
+        self.began = -0.01
         self.node = self.clock = self.context = self
         self.participants = self.running() - {(0, 100)}
         self.time = 0.0
@@ -55,13 +65,15 @@ class FakeSession:
     def now(self):
         return self.time
 
+    monotonic = now
+
     def get_domain_id(self):
         return 0
 
     def spin(self, until, timeout, poll=0.02):
         end = self.time + timeout
         while not until() and self.time < end:
-            self.time += poll
+            self.time += self.poll or poll
 
     def known(self):
         return [each for each in self.others if each.found <= self.time < each.missed]
@@ -70,7 +82,12 @@ class FakeSession:
         times = enumerate(self.others)
         return {(n, 100 + n) for n, t in times if t.starts <= self.time < t.ends}
 
-    def runs(self, prefix):
+    def look_at_sockets(self):
+        there = self.running()
+        self.time += self.sampling
+        return there
+
+    def runs(self, prefix, _there):
         return self.time < self.others[int.from_bytes(prefix[4:6], 'little')].ends
 
     def gid(self, each, number):
@@ -120,24 +137,25 @@ class FakeSession:
 @pytest.fixture
 def quiet(monkeypatch):
     """Return the time, s, at which the graph counts as complete where not all can be counted."""
-    return lambda *others: completed(monkeypatch, others, is_this_host_all=False)
+    return lambda *others, **more: completed(monkeypatch, others, is_this_host_all=False, **more)
 
 
 @pytest.fixture
 def counted(monkeypatch):
     """Return that time where all are on this host."""
-    return lambda *others: completed(monkeypatch, others, is_this_host_all=True)
+    return lambda *others, **more: completed(monkeypatch, others, is_this_host_all=True, **more)
 
 
-def completed(monkeypatch, others, *, is_this_host_all):
-    session = FakeSession(others)
+def completed(monkeypatch, others, *, is_this_host_all, **more):
+    session = FakeSession(others, **more)
 
     @contextmanager
     def subscribe(_node):
         yield session
 
-    monkeypatch.setattr(discovery, 'local_participants', lambda _domain: session.running())
-    monkeypatch.setattr(discovery, 'has_process', session.runs)
+    monkeypatch.setattr(discovery, 'local_participants', lambda _domain: session.look_at_sockets())
+    monkeypatch.setattr(discovery, 'may_have_made', session.runs)
+    monkeypatch.setattr(discovery, 'wall', session)
     monkeypatch.setattr(discovery, 'subscribe_to_node_lists', subscribe)
     monkeypatch.setattr(discovery, '_is_this_host_all', lambda: is_this_host_all)
     monkeypatch.delenv('ROS_DISCOVERY_SERVER', raising=False)
@@ -162,6 +180,13 @@ def test_it_is_not_complete_before_the_nodes_of_all_are_known(quiet):
 def test_one_that_has_ended_does_not_stand_for_one_that_is_not_found(quiet):
     ending = Times(0.0, found=0.1, ends=1.0, missed=1.3)
     assert quiet(Times(0.0, found=2.0), ending) > 2.0
+
+
+def test_one_that_comes_while_all_are_counted_does_not_stand_for_another(quiet):
+    late = Times(-9.0, found=4.0)
+    for begin in (0.43, 0.57, 0.8):
+        come = Times(begin, found=begin + 0.01, named=begin + 0.01)
+        assert quiet(late, come, sampling=0.1) > 4.0
 
 
 def test_one_that_ends_again_and_again_is_waited_for_5_s_at_most(quiet):
@@ -192,6 +217,20 @@ def test_on_this_host_one_of_before_does_not_hide_another(counted):
     assert counted(Times(-9.0, found=0.6), killed) == pytest.approx(0.6, abs=0.03)
 
 
+def test_on_this_host_one_that_comes_while_all_are_counted_does_not_hide_another(counted):
+    """As on a busy machine, which takes its time between two looks."""
+    late = Times(-9.0, found=2.0)
+    for begin in (0.03, 0.12, 0.31):
+        assert counted(late, Times(begin, found=begin + 0.01), sampling=0.1) > 2.0
+
+
+def test_on_this_host_one_that_came_and_went_unseen_does_not_hide_another(counted):
+    """As where the verb did not have a processor for so long."""
+    late = Times(-9.0, found=2.0)
+    unseen = Times(0.05, found=0.1, ends=0.25, missed=0.5)
+    assert counted(late, unseen, poll=0.3) > 2.0
+
+
 def test_on_this_host_one_of_another_host_does_not_hide_another(counted):
     stranger = Times(99.0, found=0.1, host=OTHER_HOST)
     assert counted(Times(-9.0, found=0.6), stranger) == pytest.approx(0.6, abs=0.03)
@@ -210,7 +249,7 @@ def test_on_this_host_one_that_was_killed_half_found_is_not_waited_for(counted):
 
 def test_on_this_host_one_whose_process_is_not_seen_is_waited_for(counted, monkeypatch):
     """As in a container that has the network of this host, and processes of its own."""
-    monkeypatch.setattr(FakeSession, 'runs', lambda _session, _prefix: False)
+    monkeypatch.setattr(FakeSession, 'runs', lambda _session, _prefix, _there: False)
     late = Times(-9.0, found=0.1, complete=2.0)
     ended = Times(-9.0, found=99.0, ends=0.1)
     assert counted(ended, late) == pytest.approx(2.0, abs=0.03)
@@ -220,15 +259,23 @@ def test_on_this_host_one_that_is_never_found_leaves_it_to_quiet(counted):
     assert counted(Times(-9.0, found=99.0)) == pytest.approx(5.0, abs=0.05)
 
 
-def test_the_process_of_a_participant_is_known_by_its_gid():
+def test_a_participant_of_this_host_is_known_by_its_gid():
+    before = local_participants(DOMAIN)
     context = Context()
-    context.init(args=[])
+    context.init(args=[], domain_id=DOMAIN)
     node = Node('one', context=context)
     try:
         (own, *_) = node.get_publishers_info_by_topic(TOPIC, no_mangle=True)
         prefix = bytes(own.endpoint_gid[:PREFIX])
         assert int.from_bytes(prefix[4:6], 'little') == os.getpid() & 0xFFFF
-        assert discovery.has_process(prefix)
+        there = local_participants(DOMAIN)
+        assert may_have_made(prefix, there - before)
+        assert not may_have_made(prefix, {(number, inode + 10**9) for number, inode in there})
+        ended = subprocess.Popen(['true'])
+        os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)
+        of_ended = prefix[:4] + (ended.pid & 0xFFFF).to_bytes(2, 'little') + prefix[6:]
+        assert not may_have_made(of_ended, there)
+        ended.wait()
     finally:
         node.destroy_node()
         context.try_shutdown()

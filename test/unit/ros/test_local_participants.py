@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who is in a domain on this host, from the UDP ports in use."""
 
+from contextlib import ExitStack, suppress
 import os
 import socket
 
 import pytest
 
+from amr_description.errors import SimulationError
 from amr_description.ros.local_participants import (
     discovery_sockets,
     foreign_sockets,
@@ -15,6 +17,7 @@ from amr_description.ros.local_participants import (
     owner_of,
     participant_ids,
 )
+from amr_description.testing import program
 from amr_description.testing.program import take_domain
 
 
@@ -43,10 +46,17 @@ def test_a_lone_port_is_not_a_participant():
     assert participant_ids({discovery + 8, discovery + 21}, 101) == set()
 
 
-def test_ports_in_use_count():
-    domain = int(os.environ['ROS_DOMAIN_ID'])  # nobody else's, during the tests
-    before = local_participants(domain)
-    first = 7400 + 250 * domain + 10 + 2 * 77
+@pytest.fixture
+def first_port():
+    """Of a domain without participants."""
+    domain, lock = take_domain()
+    yield 7400 + 250 * domain
+    os.close(lock)
+
+
+def test_ports_in_use_count(first_port):
+    domain = (first_port - 7400) // 250
+    first = first_port + 10 + 2 * 77
     with (
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as discovery,
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as user,
@@ -54,16 +64,8 @@ def test_ports_in_use_count():
         discovery.bind(('127.0.0.1', first))
         user.bind(('127.0.0.1', first + 1))
         inode = os.fstat(discovery.fileno()).st_ino
-        assert local_participants(domain) == before | {(77, inode)}
-    assert local_participants(domain) == before
-
-
-@pytest.fixture
-def first_port():
-    """Of a domain without participants."""
-    domain, lock = take_domain()
-    yield 7400 + 250 * domain
-    os.close(lock)
+        assert local_participants(domain) == {(77, inode)}
+    assert local_participants(domain) == set()
 
 
 @pytest.mark.parametrize('address', ADDRESSES)
@@ -83,11 +85,36 @@ def test_a_socket_where_a_participant_listens_is_seen(first_port, address, offse
     assert discovery_sockets(domain) == {}
 
 
+@pytest.fixture
+def between(monkeypatch):
+    """
+    The port of a domain without participants; those on both sides are taken too.
+
+    Tests that have them would find a socket of this one in theirs, or have its port.
+    """
+    for domain in program.DOMAINS[1:-1]:
+        if locks := take_three(domain, monkeypatch):
+            with locks:
+                yield 7400 + 250 * domain
+            return
+    raise AssertionError('no three domains side by side are free')
+
+
+def take_three(middle, monkeypatch):
+    """Take a domain and those on both sides; return what gives them back, or None."""
+    with ExitStack() as locks, suppress(SimulationError):
+        for domain in (middle - 1, middle, middle + 1):
+            monkeypatch.setattr(program, 'DOMAINS', [domain])
+            locks.callback(os.close, take_domain()[1])
+        return locks.pop_all()
+    return None
+
+
 @pytest.mark.parametrize('offset', [-2, 1, 11, 249, 250])
-def test_a_socket_elsewhere_is_nobodys(first_port, offset):
-    domain = (first_port - 7400) // 250
+def test_a_socket_elsewhere_is_nobodys(between, offset):
+    domain = (between - 7400) // 250
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
-        other.bind(('127.0.0.1', first_port + offset))
+        other.bind(('127.0.0.1', between + offset))
         assert discovery_sockets(domain) == {}
 
 
