@@ -23,6 +23,7 @@ class EchoPrinter:
         self.count = 0
         """How many messages were printed."""
         self._failure: Exception | None = None
+        self._once = args.once
         self._field = args.field.split('.') if args.field else []
         if not args.raw:
             self._select(message_class())
@@ -40,9 +41,10 @@ class EchoPrinter:
         """
         Print a message, or the bytes of one, if it passes the filter; until that fails.
 
-        Why it fails is for :meth:`has_printed`: EventsExecutor logs what a callback raises.
+        Why it fails is for :meth:`has_printed`: EventsExecutor logs what a callback raises. It
+        also hands over all that have come before anybody can end it: ``--once`` is kept here.
         """
-        if self._failure is None:
+        if self._failure is None and not (self._once and self.count):
             try:
                 self.receive_with_info(message, {})
             except Exception as error:

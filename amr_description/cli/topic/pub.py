@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from amr_description.cli.session import Session
 
 _HINT_AFTER = 3  # s of waiting for subscriptions until a hint is looked for, every second then
+_MATCHING_TIME = 1.0  # s, at most, from the discovery of a subscription until it is matched
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -121,6 +122,7 @@ def main(args: Namespace) -> int:
 
     times = 1 if args.once else args.times
     awaited = args.wait_matching_subscriptions
+    awaits_all = times > 0 and awaited is None and args.max_wait_time_secs is None
     awaited = (1 if times else 0) if awaited is None else awaited
     if args.max_wait_time_secs is not None and awaited == 0:
         raise AmrError(
@@ -134,6 +136,8 @@ def main(args: Namespace) -> int:
         publisher = session.node.create_publisher(type(message), topic, qos.from_flags(args))
         others = TypeMismatchReporter(session.node, topic, type(message), publishing=True)
         _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)
+        if awaits_all:
+            _wait_for_all_there(session, publisher)
         print('publisher: beginning loop')
         _Loop(session, publisher, message, stamps, args.print).run(times, args.rate, others)
         session.spin(lambda: publisher.wait_for_all_acked(Duration()), DELIVERY_TIME)
@@ -169,6 +173,23 @@ def _wait_for_subscriptions(
         others.report()
         if waited >= _HINT_AFTER and not hinted and not publisher.get_subscription_count():
             hinted = _print_hint(session, publisher)
+
+
+def _wait_for_all_there(session: 'Session', publisher: 'Publisher') -> None:
+    """
+    Wait until all who subscribe now are matched, as far as the graph shows them.
+
+    The first that is found may be a page that shows commands, and not the robot. One whose QoS
+    does not fit is never matched, so the wait ends.
+    """
+    from amr_description.cli.discovery import wait_for_discovery
+
+    def all_matched() -> bool:
+        there = session.node.count_subscribers(publisher.topic_name)
+        return publisher.get_subscription_count() >= there
+
+    wait_for_discovery(session, 0.0)
+    session.spin(all_matched, _MATCHING_TIME)
 
 
 def _print_hint(session: 'Session', publisher: 'Publisher') -> bool:

@@ -8,11 +8,27 @@ import signal
 from fixtures.cli.commands import ros2, running_node, shell, started
 import pytest
 from rclpy.topic_endpoint_info import TopicEndpointInfo
+from support.running_programs import Program
 
 from amr_description.ros.type_mismatch import mismatches
 
 COMMAND = '/diff_drive_controller/cmd_vel'
 STAMPED = 'geometry_msgs/msg/TwistStamped'
+
+# Somebody who shows the commands of a robot.
+PAGE = """
+import sys
+from geometry_msgs.msg import TwistStamped
+import rclpy
+rclpy.init()
+node = rclpy.create_node('page')
+node.create_subscription(TwistStamped, sys.argv[1], lambda _: print('heard', flush=True), 1)
+print('there', flush=True)
+while not node.count_publishers(sys.argv[1]):
+    rclpy.spin_once(node, timeout_sec=0.01)
+print('found', flush=True)
+rclpy.spin(node)
+"""
 
 
 @pytest.fixture(scope='module')
@@ -26,6 +42,25 @@ def test_a_command_reaches_the_controller(fixture_node):
     values = '{header: {frame_id: base_link}, twist: {linear: {x: 0.5}}}'
     assert ros2('topic', 'pub', '--once', COMMAND, STAMPED, values).returncode == 0
     fixture_node.expect("command x=0.5 frame='base_link' stamped=False", seen)
+
+
+def test_once_reaches_all_who_are_there_not_only_the_first_that_is_found(fixture_node):
+    seen = len(fixture_node.output)
+    with Program.of(PAGE, COMMAND) as page:
+        page.expect('there')
+        fixture_node.signal(signal.SIGSTOP)
+        try:
+            publishing = started(
+                'topic', 'pub', '--once', COMMAND, STAMPED, '{header: {frame_id: a}}'
+            )
+            with publishing as program:
+                page.expect('found')
+                fixture_node.signal(signal.SIGCONT)
+                fixture_node.expect("command x=0.0 frame='a' stamped=False", seen)
+                page.expect('heard')
+                assert program.end() == 0
+        finally:
+            fixture_node.signal(signal.SIGCONT)
 
 
 def test_auto_stamps_every_message(fixture_node):
