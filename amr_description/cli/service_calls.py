@@ -10,6 +10,7 @@ from rclpy.client import Client
 from rclpy.task import Future
 
 from amr_description.cli.session import Session
+from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.service_calls import ServiceReadiness
 
 _REPEAT_PERIOD = 0.25  # s from the first request to the second, if there is no answer
@@ -83,8 +84,12 @@ def responses(
     Returns:
         The responses that have arrived in time, by the same names.
     """
+
+    def make_client(name: str) -> Client:
+        return session.node.create_client(service_type, name, qos_profile=SERVICE_CLIENT)
+
     calls = {
-        name: _Call(session, session.node.create_client(service_type, name), request, changes)
+        name: _Call(session, make_client(name), request, changes)
         for name, request in requests.items()
     }
     awaited = list(calls.values())

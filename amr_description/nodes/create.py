@@ -24,7 +24,7 @@ from amr_description.model.fixing import fixed_to_world
 from amr_description.model.frames import Transform
 from amr_description.ros.arguments import other_arguments, ros_arguments
 from amr_description.ros.messages import fill_pose
-from amr_description.ros.qos import LATCHED
+from amr_description.ros.qos import LATCHED, SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors, program, ros
 from amr_description.ros.service_calls import ask_until_answered, call_with, wait_until
 from amr_description.text import truth
@@ -110,7 +110,7 @@ def _spawn(node: Node, service: str, request: SpawnEntity.Request) -> Result:
     A simulator that has not discovered this client yet would drop its response. So a harmless
     service of the simulator is called first, by a client that is created later.
     """
-    client = node.create_client(SpawnEntity, service)
+    client = node.create_client(SpawnEntity, service, qos_profile=SERVICE_CLIENT)
     probe = f'{service.rpartition("/")[0]}/get_entity_state'
     if probe in dict(node.get_service_names_and_types()):
         harmless = node.create_client(GetEntityState, probe)

@@ -120,6 +120,7 @@ def spawn(args: list[str] | None) -> None:
                 options.controller_manager,
                 timeout=options.controller_manager_timeout,
                 first=srv.ListHardwareComponents,
+                soon=[srv.SetHardwareComponentState],
             )
             bring(node, manager, options.hardware_component_names, options.action)
         finally:

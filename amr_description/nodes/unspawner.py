@@ -14,6 +14,7 @@ import argparse
 from collections.abc import Sequence
 import sys
 
+from controller_manager_msgs import srv
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
@@ -72,7 +73,8 @@ def unspawn(args: list[str] | None) -> None:
         options = parser().parse_args(remove_ros_args(words)[1:])
         node = client_node(f'unspawner_{options.controller_names[0]}')
         try:
-            manager = ManagerClient(node, options.controller_manager)
+            soon = (srv.SwitchController, srv.UnloadController)
+            manager = ManagerClient(node, options.controller_manager, soon=soon)
             unload(node, manager, options.controller_names, options.switch_timeout)
         finally:
             node.destroy_node()

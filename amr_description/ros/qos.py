@@ -12,3 +12,10 @@ TF_STATIC = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 CLOCK = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 """To subscribe to ``/clock``, as rclpy's time source does."""
+
+SERVICE_CLIENT = QoSProfile(depth=500)
+"""
+Of a client of a service that others call, too: it receives the answers to all of them, and rmw
+leaves those to others out only when they are taken. With the usual depth of 10, ten of them push
+its own out while its process waits for a processor, and its request has no answer for ever.
+"""

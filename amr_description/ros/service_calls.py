@@ -14,6 +14,7 @@ from rclpy.validate_node_name import validate_node_name
 
 from amr_description.errors import AmrError
 from amr_description.ros.message_types import type_name
+from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.wait_clock import WaitClock
 
@@ -130,6 +131,7 @@ def wait_until[Result](
     every: float = 1.0,
     timeout: float = 0.0,
     of_message: bool = False,
+    clock: WaitClock | None = None,
 ) -> Result | None:
     """
     Spin a node, by its executor if it has one, until ``condition()`` is not ``None``.
@@ -139,9 +141,10 @@ def wait_until[Result](
         condition: Asked after every callback, and besides as ``of_message`` says.
         on_wait: Called every ``every`` s.
         every: s.
-        timeout: s, of a :class:`~amr_description.ros.wait_clock.WaitClock`; 0: without end.
+        timeout: s, of the clock; 0: without end.
         of_message: A callback changes the condition, it is asked ten times a second besides; else
             20 times, at first up to 100 times, as nothing tells of a change of the graph.
+        clock: That of the wait, for a condition that asks it; None: a new one.
 
     Returns:
         What ``condition()`` returned; ``None``: the time is over.
@@ -151,7 +154,7 @@ def wait_until[Result](
     # has it collect what it waits for twice more.
     was_added = executor.add_node(node)
     try:
-        clock = WaitClock()
+        clock = clock or WaitClock()
         start = last = clock.now()
         worked = time.thread_time()
         while (result := condition()) is None:
@@ -210,7 +213,7 @@ def call(
     logged, in the words of ros2_control. The request is not sent again: what it asks for would be
     done again, by a server that is only slow. A server that goes away ends the wait.
     """
-    client = node.create_client(service_type, name)
+    client = node.create_client(service_type, name, qos_profile=SERVICE_CLIENT)
     try:
         return call_with(node, client, request, timeout=timeout, attempts=attempts)
     finally:
@@ -233,6 +236,7 @@ def call_with(
         lambda: future.result() if future.done() else None,
         timeout=timeout,
         attempts=attempts,
+        was_there=True,
     )
 
 
@@ -257,9 +261,14 @@ def _answer(
     *,
     timeout: float,
     attempts: int,
+    was_there: bool = False,
 ) -> Any:
-    """Wait for the response of a service. Raises NoAnswerError."""
-    service, was_there, gone_since = client.srv_name, False, 0.0
+    """
+    Wait for the response of a service. Raises NoAnswerError.
+
+    ``was_there``: the server has been seen; it may be gone at the first look here.
+    """
+    service, gone_since, clock = client.srv_name, 0.0, WaitClock()
 
     def answered_or_gone() -> Any | None:
         nonlocal was_there, gone_since
@@ -268,14 +277,14 @@ def _answer(
         if client.service_is_ready() or node.count_services(service):
             was_there, gone_since = True, 0.0
         elif was_there:
-            gone_since = gone_since or time.monotonic()
-            if time.monotonic() - gone_since > _LAST_ANSWER:
+            gone_since = gone_since or clock.now()
+            if clock.now() - gone_since > _LAST_ANSWER:
                 raise NoAnswerError(f'service {service} went away before it answered')
         return None
 
     for attempt in range(1, attempts + 1):
         response = wait_until(
-            node, answered_or_gone, each_second, timeout=timeout, of_message=True
+            node, answered_or_gone, each_second, timeout=timeout, of_message=True, clock=clock
         )
         if response is not None:
             return response

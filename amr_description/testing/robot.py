@@ -18,7 +18,7 @@ from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import SpawnEntity
 
 from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner import Spawner
+from amr_description.control.ros.spawner import SERVICES, Spawner
 from amr_description.control.ros.spawner_arguments import parse
 from amr_description.errors import SimulationError
 from amr_description.model.controller_files import (
@@ -263,7 +263,8 @@ def spawn_controllers(
     """
     inside, manager_name = namespace_of(description, namespace), manager_of(description)[1]
     name = f'{inside.rstrip("/")}/{manager_name}'
-    with closing(ManagerClient(lock_step.node, name, timeout=TIMEOUT, silent=5.0)) as manager:
+    client = ManagerClient(lock_step.node, name, timeout=TIMEOUT, silent=5.0, soon=SERVICES)
+    with closing(client) as manager:
         declared = declared_controllers(files, inside, manager_name)
         _spawn_in(manager, lock_step.node, declared, names)
         listed = manager.query(ListControllers).controller

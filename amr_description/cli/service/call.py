@@ -61,6 +61,7 @@ def main(args: Namespace) -> int:
     from amr_description.cli.yaml_input import read_value
     from amr_description.ros.message_fields import set_fields
     from amr_description.ros.message_types import service_type
+    from amr_description.ros.qos import SERVICE_CLIENT
 
     if args.rate is not None and not 0.0 < args.rate < float('inf'):
         raise AmrError('rate must be greater than zero')
@@ -69,7 +70,7 @@ def main(args: Namespace) -> int:
     stamps = set_fields(request, read_value(sys.stdin.read() if args.stdin else args.values))
     with open_session() as session:
         name = full_name(session.node, args.service_name, 'a service')
-        client = session.node.create_client(service_class, name)
+        client = session.node.create_client(service_class, name, qos_profile=SERVICE_CLIENT)
         _wait_for_service(session, client, args.timeout)
         while True:
             start = time.monotonic()

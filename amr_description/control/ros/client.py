@@ -17,6 +17,7 @@ from rclpy.parameter import Parameter
 
 from amr_description.control.ros.absence_diagnosis import errors_of, ManagerProbe
 from amr_description.errors import ControllerError
+from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.service_calls import (
     ask_until_answered,
@@ -62,7 +63,8 @@ class ManagerClient:
             first: The type of the service that is waited for, whose request has no fields;
                 default: ListControllers.
             soon: The types of services that will be called. Their clients are made before that of
-                ``first``: when that one is answered, the manager knows them too.
+                ``first``: when that one is answered, the manager knows them too. For another one
+                it has to be asked again, before its first call.
 
         Raises:
             ControllerError: The manager does not come; it says what is missing.
@@ -77,17 +79,21 @@ class ManagerClient:
         self.namespace = self.name.rpartition('/')[0] or '/'
         self._probe = ManagerProbe(node, self.name)
         self._clients: dict[Any, Client] = {}
+        self._known: set[Any] = set()
+        self._first = first or srv.ListControllers
         for service_type in soon:
             self._client(service_type)
-        client = self._client(first or srv.ListControllers)
+        client = self._client(self._first)
         self._wait_for(client, timeout, silent)
         self._query(client)
+        self._known.update(self._clients)
 
     def close(self) -> None:
         """Remove the clients, for a node that lives longer: the graph shows their services."""
         for client in self._clients.values():
             self._node.destroy_client(client)
         self._clients.clear()
+        self._known.clear()
 
     def is_there(self) -> bool:
         """Return whether it is still there."""
@@ -276,11 +282,12 @@ class ManagerClient:
 
     def _call(self, service_type: Any, timeout: float | None = None, /, **fields: Any) -> Any:
         """Call a service that changes something, once; return the response."""
+        client = self._known_client(service_type)
         self._call_time = time.time()
         try:
             return call_with(
                 self._node,
-                self._client(service_type),
+                client,
                 service_type.Request(**fields),
                 timeout=self._call_timeout if timeout is None else timeout,
                 attempts=_ATTEMPTS,
@@ -288,12 +295,32 @@ class ManagerClient:
         except NoAnswerError as error:
             raise self._explained(error) from error
 
+    def _known_client(self, service_type: Any) -> Client:
+        """
+        Return a client whose first request may be sent only once: the manager knows it.
+
+        That throws away the response to a client that discovery has not told it of, as where a
+        packet was lost, which takes 3 s to come again. It hears of the clients of a participant in
+        the order in which they were made: where it answers a later one, it knows this one.
+        """
+        client = self._client(service_type)
+        if service_type not in self._known:
+            later = self._make_client(self._first)
+            try:
+                self._query(later)
+            finally:
+                self._node.destroy_client(later)
+            self._known.update(self._clients)
+        return client
+
     def _client(self, service_type: Any) -> Client:
         if service_type not in self._clients:
-            self._clients[service_type] = self._node.create_client(
-                service_type, self._service(service_type)
-            )
+            self._clients[service_type] = self._make_client(service_type)
         return self._clients[service_type]
+
+    def _make_client(self, service_type: Any) -> Client:
+        service = self._service(service_type)
+        return self._node.create_client(service_type, service, qos_profile=SERVICE_CLIENT)
 
     def _service(self, service_type: Any) -> str:
         return f'{self.name}/{name_of_type(service_type)}'

@@ -44,6 +44,7 @@ from simulation_interfaces.srv import (
 from amr_description.errors import ViewerError
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_pose, transform_of
+from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.text import unwrap
 from amr_description.viewer.protocol import (
@@ -140,7 +141,9 @@ class ServiceClients:
         gone = [each for name, each in self._clients.items() if name not in types]
         for name, service_type in types.items():
             if name not in clients:
-                clients[name] = self._node.create_client(service_type, name)
+                clients[name] = self._node.create_client(
+                    service_type, name, qos_profile=SERVICE_CLIENT
+                )
         self._clients = clients
         for client in gone:
             self._node.destroy_client(client)

@@ -42,7 +42,8 @@ class Session:
     def __init__(self, **lost):
         self.clients = {f'/{name}/list_parameters': Client(count) for name, count in lost.items()}
         self.node = SimpleNamespace(
-            create_client=lambda _type, name: self.clients[name], destroy_client=lambda _: None
+            create_client=lambda _type, name, **_: self.clients[name],
+            destroy_client=lambda _: None,
         )
         self.clock = WaitClock()
 

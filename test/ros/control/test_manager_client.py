@@ -12,12 +12,13 @@ from rclpy.node import Node
 from rclpy.task import Future
 from rosgraph_msgs.msg import Clock
 from support.manager_host import ros_in_this_process
+from support.ros_processes import PATIENCE
 from support.serving import serving
 
 from amr_description.control.ros import absence_diagnosis
 from amr_description.control.ros.client import ManagerClient
 from amr_description.errors import ControllerError
-from amr_description.ros.service_calls import NoAnswerError
+from amr_description.ros.service_calls import NoAnswerError, wait_until
 
 TIMED_OUT = 'Switch controller timed out after 5 seconds!'
 
@@ -28,7 +29,7 @@ class Manager(Node):
     def __init__(self):
         super().__init__('controller_manager', allow_undeclared_parameters=True)
         self.silent = False
-        self.switches = []
+        self.switches, self.asked = [], []
         group = ReentrantCallbackGroup()
         for service_type, name, serve in (
             (ListControllers, '~/list_controllers', self.list_controllers),
@@ -41,12 +42,14 @@ class Manager(Node):
         self.clock = self.create_publisher(Clock, '/clock', 10)
 
     async def list_controllers(self, _, response):
+        self.asked.append('list')
         if self.silent:
             await Future()
         return response
 
     async def switch_controller(self, request, response):
         self.switches.append(request)
+        self.asked.append('switch')
         if self.silent:
             await Future()
         response.message = TIMED_OUT
@@ -70,7 +73,8 @@ def client(manager, monkeypatch):
     monkeypatch.setattr(absence_diagnosis, '_CLOCK_TIMEOUT', 1.0)
     monkeypatch.setattr(manager, 'switches', [])
     node = Node('asker')
-    yield ManagerClient(node, 'controller_manager', call_timeout=0.5)
+    soon = (SwitchController, SetParameters)
+    yield ManagerClient(node, 'controller_manager', call_timeout=0.5, soon=soon)
     node.destroy_node()
 
 
@@ -131,6 +135,17 @@ def test_a_manager_that_never_answers_keeps_nobody(manager, monkeypatch):
     node.destroy_node()
 
 
+def test_an_answer_is_kept_until_it_is_taken_though_others_are_answered_meanwhile(client):
+    """As where this process waits for a processor."""
+    node = Node('other')
+    other = ManagerClient(node, 'controller_manager')
+    answer = client._client(SwitchController).call_async(SwitchController.Request())
+    for _ in range(20):
+        other.request_switch(['a'], [], 1)
+    assert wait_until(client._node, lambda: answer.done() or None, timeout=PATIENCE)
+    node.destroy_node()
+
+
 def test_its_clients_are_made_once_and_those_that_are_needed_soon_before_the_first(manager):
     node = Node('ready')
     try:
@@ -143,5 +158,26 @@ def test_its_clients_are_made_once_and_those_that_are_needed_soon_before_the_fir
         assert [each.srv_type for each in node.clients if each.srv_type in made] == made
         client.close()
         assert not {each.srv_type for each in node.clients} & {*made}
+    finally:
+        node.destroy_node()
+
+
+def test_a_client_that_the_manager_may_not_know_asks_for_a_list_before_its_first_call(
+    manager, monkeypatch
+):
+    order = []
+    monkeypatch.setattr(manager, 'asked', order)
+    node = Node('late')
+    try:
+        client = ManagerClient(node, 'controller_manager')
+        del order[:]
+        for _ in range(2):
+            client.switch(activate=['a'], timeout=0.1)
+        first = order.index('switch')
+        assert first > 0
+        assert {*order[:first]} == {'list'}  # more than one, if an answer is lost
+        assert order[first:] == ['switch', 'switch']
+        kinds = [each.srv_type for each in node.clients]
+        assert kinds.count(ListControllers) == 1  # the one that only asked is gone
     finally:
         node.destroy_node()

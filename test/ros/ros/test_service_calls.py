@@ -54,17 +54,18 @@ class Server(Node):
 
 
 class ClientOfTheDeparted:
-    """Its server is there at the first two looks; the response is ready some looks later."""
+    """Its server is there at the first looks; the response is ready some looks later."""
 
     srv_name = '/departed'
 
-    def __init__(self, looks):
+    def __init__(self, looks, there=2):
         self.looks = looks
+        self.there = there
         self.seen_ready = 0
 
     def service_is_ready(self):
         self.seen_ready += 1
-        return self.seen_ready <= 2
+        return self.seen_ready <= self.there
 
     def call_async(self, _):
         return self
@@ -150,6 +151,12 @@ def test_a_server_that_goes_away_is_not_waited_for(server, caller):
     with pytest.raises(NoAnswerError, match='^service /slow went away before it answered$'):
         trigger(caller, timeout=PATIENCE)
     server.answer.set_result('late')
+
+
+def test_a_server_that_is_gone_at_the_first_look_for_its_answer_is_not_waited_for(caller):
+    client = ClientOfTheDeparted(looks=10**9, there=1)
+    with pytest.raises(NoAnswerError, match='^service /departed went away before it answered$'):
+        call_with(caller, client, Trigger.Request(), timeout=PATIENCE)
 
 
 def test_the_answer_of_a_server_that_is_gone_is_taken_behind_what_came_before_it(caller):
