@@ -46,9 +46,15 @@ class Wrenches:
         self._once.append(((robot, link), wrench))
 
     def hold(self, robot: str, link: str, wrench: WorldWrench) -> None:
-        """Apply a wrench from now on, in place of the one before. Raises SimulationError."""
+        """
+        Apply a wrench from now on, in place of the one before; one of zeros is none.
+
+        Raises SimulationError.
+        """
         self._body_of(robot, link)
-        self._lasting[robot, link] = wrench
+        self._lasting.pop((robot, link), None)
+        if any((*wrench.force, *wrench.torque)):
+            self._lasting[robot, link] = wrench
 
     def clear(self, robot: str, link: str | None = None) -> None:
         """Hold no wrench on a link any more; None: on no link of the robot."""

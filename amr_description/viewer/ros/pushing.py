@@ -28,15 +28,20 @@ class Pushing:
         self._clear = node.create_publisher(Entity, f'{topic}/clear', _DEPTH)
 
     def push(self, entity: str, link: str, force: Vector, torque: Vector) -> None:
-        """Push a link, N and N m in the axes of the world; without any, let it go."""
+        """
+        Push a link, N and N m in the axes of the world; without any, let it go.
+
+        To let go is said by a wrench of zeros first. What comes on two topics has no order: a
+        simulator that waits for a processor may take the last push after what clears it, and the
+        robot would be pushed for ever.
+        """
         target = Entity(name=f'{entity}::{link}', type=Entity.LINK)
+        wrench = Wrench(force=_vector3(force), torque=_vector3(torque))
         # The ROS thread may have destroyed them in the meantime: the simulator has gone.
         with suppress(InvalidHandle):
+            self._wrench.publish(EntityWrench(entity=target, wrench=wrench))
             if not any((*force, *torque)):
                 self._clear.publish(target)
-                return
-            wrench = Wrench(force=_vector3(force), torque=_vector3(torque))
-            self._wrench.publish(EntityWrench(entity=target, wrench=wrench))
 
     def destroy(self) -> None:
         """Publish no more."""

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pushes to a simulator: what its topics get, and one that comes after it has gone."""
 
+from geometry_msgs.msg import Wrench
 import pytest
 import rclpy
 from rclpy.node import Node
@@ -24,20 +25,24 @@ def node():
 
 
 def test_a_link_is_pushed_and_let_go_until_the_simulator_has_gone(node):
-    heard = []
-    for kind, topic in ((EntityWrench, 'wrench/persistent'), (Entity, 'wrench/clear')):
-        node.create_subscription(kind, f'/sim/{topic}', heard.append, 10)
+    pushes, cleared = [], []
+    node.create_subscription(EntityWrench, '/sim/wrench/persistent', pushes.append, 10)
+    node.create_subscription(Entity, '/sim/wrench/clear', cleared.append, 10)
     pushing = Pushing(node, '/sim')
 
-    def is_heard(count):
-        return wait_until(node, lambda: len(heard) == count or None, timeout=PATIENCE)
+    def is_heard(*counts):
+        def are_equal():
+            return (len(pushes), len(cleared)) == counts or None
+
+        return wait_until(node, are_equal, timeout=PATIENCE)
 
     pushing.push('amr', 'base_link', (1.0, 0.0, 0.0), NONE)
-    assert is_heard(1)
-    assert (heard[0].entity.name, heard[0].wrench.force.x) == ('amr::base_link', 1.0)
+    assert is_heard(1, 0)
+    assert (pushes[0].entity.name, pushes[0].wrench.force.x) == ('amr::base_link', 1.0)
     pushing.push('amr', 'base_link', NONE, NONE)
-    assert is_heard(2)
-    assert heard[1] == heard[0].entity
+    assert is_heard(2, 1)
+    assert cleared[0] == pushes[1].entity == pushes[0].entity
+    assert pushes[1].wrench == Wrench()  # it also ends a push that is taken after what clears it
     pushing.destroy()
     for force in ((1.0, 0.0, 0.0), NONE):
         pushing.push('amr', 'base_link', force, NONE)  # the server's thread may come late

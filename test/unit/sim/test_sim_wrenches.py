@@ -52,6 +52,15 @@ def test_a_held_wrench_acts_until_it_is_cleared_and_the_latest_counts():
     assert motion(world, ball)[0] == pytest.approx((0.0, 0.0, -G * 10 * STEP))
 
 
+def test_a_held_wrench_of_zeros_ends_the_one_before_and_costs_nothing():
+    world, ball = world_with_ball()
+    world.wrenches.hold('ball', 'ball', WorldWrench((99.0, 0.0, 0.0), NONE))
+    world.wrenches.hold('ball', 'ball', WorldWrench(NONE, NONE))
+    assert world.wrenches._lasting == {}
+    world.step(10)
+    assert motion(world, ball)[0] == pytest.approx((0.0, 0.0, -G * 10 * STEP))
+
+
 def test_the_force_acts_on_the_origin_of_the_link_not_on_its_centre_of_mass():
     world, ball = world_with_ball(offset=0.2)
     world.wrenches.push('ball', 'ball', WorldWrench((0.0, 5.0, 0.0), NONE))
