@@ -70,11 +70,12 @@ class CommandProbe:
 
     @property
     def is_done(self) -> bool:
-        """Whether enough was heard."""
+        """Whether enough was heard, or long enough of all who publish."""
         self._take()
         waited = time.monotonic() - self._began
         answers = [q.response for found in self._questions.values() for q in found.values()]
-        if None in answers and waited < LISTEN:
+        # On a busy machine to find each other may take as long as to listen.
+        if None in answers or not all(each.is_connected for each in self._topics):
             return False
         if any(each.value is None for each in self._locks) and waited < _LOCK_PATIENCE:
             return False
@@ -206,6 +207,11 @@ class _Topic:
     heard: HeardTopic | None = None
     seen: list[tuple[Any, int, bytes]] = field(default_factory=list)
     """Messages, when they were received, and the gids of their publishers."""
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether all who publish can be heard."""
+        return self.heard is None or self.heard.is_connected
 
     @property
     def is_heard(self) -> bool:

@@ -78,6 +78,11 @@ class HeardTopic:
         """Whether a publisher is connected."""
         return self._subscription.get_publisher_count() > 0
 
+    @property
+    def is_connected(self) -> bool:
+        """Whether all publishers of the graph are connected; one with another QoS never is."""
+        return self._subscription.get_publisher_count() >= self._node.count_publishers(self.topic)
+
     def destroy(self) -> None:
         """Hear nothing more."""
         self._node.destroy_subscription(self._subscription)

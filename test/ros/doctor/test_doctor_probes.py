@@ -26,8 +26,9 @@ from amr_description.doctor.ros import (
 )
 from amr_description.doctor.ros.clock import ClockProbe, stamp_in
 from amr_description.doctor.ros.collector import collect, Examination, what_is_made_goes
-from amr_description.doctor.ros.commands import drive_of
+from amr_description.doctor.ros.commands import CommandProbe, drive_of
 from amr_description.doctor.ros.graph import serves
+from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.shared import _SHARED, shared_of
 from amr_description.doctor.ros.transforms import TransformsProbe
 from amr_description.ros.messages import fill_stamp
@@ -108,7 +109,12 @@ def test_transforms_that_come_seldom_are_waited_for(graph, monkeypatch):
     with graph.intruder('slow', use_sim_time=False) as node:
         publisher = node.create_publisher(TFMessage, '/tf', 10)
         doctor = graph.doctor
-        assert wait_until(doctor, lambda: doctor.count_publishers('/tf') or None, timeout=PATIENCE)
+
+        def is_alone():  # of the tests before, somebody with a clock may still be in the graph
+            counts = doctor.count_publishers('/tf'), doctor.count_publishers('/clock')
+            return counts == (1, 0) or None
+
+        assert wait_until(doctor, is_alone, timeout=PATIENCE), graph.announced()
         probe = TransformsProbe()
         with what_is_made_goes(doctor):
             probe.begin(doctor)
@@ -119,6 +125,24 @@ def test_transforms_that_come_seldom_are_waited_for(graph, monkeypatch):
             every(node, 0.05, publisher, lambda: transforms(TWO, ('odom', 'base')))
             assert wait_until(doctor, lambda: probe.is_done or None, timeout=PATIENCE)
             assert probe.observe().trees[0].frames == {'odom', 'base'}
+
+
+def test_commands_are_listened_to_until_all_who_publish_them_are_connected(graph, monkeypatch):
+    monkeypatch.setattr(command_probe, 'LISTEN', 0.0)
+    with graph.intruder('navigator', use_sim_time=False) as node:
+        node.create_publisher(TwistStamped, '/cmd_vel', 10)
+        doctor = graph.doctor
+        assert wait_until(
+            doctor, lambda: doctor.count_publishers('/cmd_vel') or None, timeout=PATIENCE
+        )
+        probe = CommandProbe()
+        with what_is_made_goes(doctor):
+            with monkeypatch.context() as patch:
+                patch.setattr(HeardTopic, 'is_connected', False)
+                probe.begin(doctor)
+                assert not wait_until(doctor, lambda: probe.is_done or None, timeout=0.2)
+            assert wait_until(doctor, lambda: probe.is_done or None, timeout=PATIENCE)
+            assert [each.name for each in probe.observe().topics] == ['/cmd_vel']
 
 
 @pytest.mark.parametrize(
