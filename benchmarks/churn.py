@@ -135,7 +135,7 @@ class ClockObserver:
         self.count += 1
 
     def _look(self) -> dict[str, int]:
-        self._looks.append((time.time_ns(), waited := _waited(self._process)))
+        self._looks.append((time.time_ns(), waited := processor_waits(self._process)))
         return waited
 
     def _waited_since(self, stamp: int) -> float:
@@ -150,7 +150,7 @@ class ClockObserver:
         return sum(times[-2:]) * 1e-9
 
 
-def _waited(process: int) -> dict[str, int]:
+def processor_waits(process: int) -> dict[str, int]:
     """Thread of a process → ns for which it has waited for a processor."""
     times = {}
     for path in Path(f'/proc/{process}/task').glob('*/schedstat'):

@@ -1,11 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Give each test process a ROS of its own: a free domain, this host only, its own log folder.
+Give each test file a ROS of its own: a free domain, this host only; and each process a log folder.
 
 So several can run side by side: of several checkouts, or of one (``scripts/test``).
 """
 
+import contextlib
 import gc
 import math
 import os
@@ -20,6 +21,7 @@ from hypothesis import settings
 import pytest
 from support import failures, forked_workers, leftovers, ordering, preloaded, udp_contexts
 
+from amr_description.errors import SimulationError
 from amr_description.testing import program
 from amr_description.testing.program import take_domain, WAYS_TO_OTHERS
 
@@ -90,6 +92,9 @@ def pytest_configure(config):
     # A background job starts with Ctrl-C ignored, which every child would inherit.
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    # Under nohup, what the tests start is to end when its terminal is closed; the tests are not.
+    if signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda *_: None)
     take_ros_of_its_own()
     prefixes = [str(ROOT / 'install' / 'amr_description'), sys.prefix]
     known = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
@@ -108,6 +113,20 @@ def take_ros_of_its_own():
     domain, KEPT['lock'] = take_domain()
     KEPT['logs'] = tempfile.mkdtemp(prefix='amr-test-logs-')
     os.environ |= {'ROS_DOMAIN_ID': str(domain), 'ROS_LOG_DIR': KEPT['logs']}
+
+
+def change_domain():
+    """
+    Go to another domain, for the next file.
+
+    Whoever is still on the way out of this one, or was killed and stays in the graph for 20 s, is
+    not seen by its tests.
+    """
+    with contextlib.suppress(SimulationError):  # all are taken: that is no fault of the tests
+        domain, lock = take_domain()
+        os.close(KEPT['lock'])
+        KEPT['lock'] = lock
+        os.environ[program.DOMAIN] = str(domain)
 
 
 def give_back():
@@ -165,11 +184,13 @@ def pytest_runtest_makereport(item):
 
 
 @pytest.hookimpl(wrapper=True)
-def pytest_runtest_protocol(item):
+def pytest_runtest_protocol(item, nextitem):
     try:
         return (yield)
     finally:
         leftovers.collect_participants()
+        if nextitem is not None and nextitem.path != item.path:
+            change_domain()
 
 
 class Recording:
@@ -207,7 +228,7 @@ def pytest_collection_finish():
 
 
 def pytest_report_header(config):
-    domain = 'of each worker' if config.option.workers else os.environ['ROS_DOMAIN_ID']
+    domain = 'of each file' if config.option.workers else os.environ['ROS_DOMAIN_ID']
     return [f'ROS_DOMAIN_ID={domain}, LOCALHOST', *order_notes(config)]
 
 

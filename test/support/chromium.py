@@ -373,29 +373,30 @@ class Page:
         As a person does, once it stands still, and nothing lies on it: a panel that opens is
         filled when the next state arrives, and what is in it moves.
         """
-        x, y = self.wait_until(
-            f"""(() => {{
-              const element = document.querySelector({json.dumps(selector)});
-              const [x, y] = {_CENTRE};
-              const hit = document.elementFromPoint(x, y);
-              const before = window.placeToClick;
-              window.placeToClick = `${{x}} ${{y}}`;
-              if (before !== window.placeToClick || !element.contains(hit)) return null;
-              window.placeToClick = null;
-              return [x, y];
-            }})()"""
-        )
+        x, y = self._place_of(selector, 'element.contains(document.elementFromPoint(x, y))')
         self.mouse('mousePressed', x, y)
         self.mouse('mouseReleased', x, y)
 
     def centre_of(self, selector):
-        """Return where the middle of an element is, scrolled into view, in CSS pixels."""
-        text = json.dumps(selector)
-        self.wait_until(f'document.querySelector({text})')
-        return self.evaluate(
+        """
+        Return where the middle of an element is, scrolled into view, in CSS pixels.
+
+        As soon as it stands still: after the size of the page has changed, it is laid out anew.
+        """
+        return self._place_of(selector, 'true')
+
+    def _place_of(self, selector, condition):
+        """Wait until an element is at the same place in two looks, and for a condition."""
+        return self.wait_until(
             f"""(() => {{
-              const element = document.querySelector({text});
-              return {_CENTRE};
+              const element = document.querySelector({json.dumps(selector)});
+              if (!element) return null;
+              const [x, y] = {_CENTRE};
+              const before = window.placeToClick;
+              window.placeToClick = `${{x}} ${{y}}`;
+              if (before !== window.placeToClick || !({condition})) return null;
+              window.placeToClick = null;
+              return [x, y];
             }})()"""
         )
 

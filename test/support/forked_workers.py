@@ -98,6 +98,8 @@ class ForkedWorkers:
     def _fork(self, session: pytest.Session, number: int) -> None:
         ours, theirs = Pipe()
         assert self._tracing is not None
+        # Until it is a worker, which ends at Ctrl-C, a fork would go on as this process does.
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         self._tracing.before_fork()
         with warnings.catch_warnings():
             # The threads that this warning is about are those of LTTng, which no test needs.
@@ -112,6 +114,7 @@ class ForkedWorkers:
         theirs.close()
         worker = _Worker(number, pid, ours)
         self._workers[ours] = worker
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
         self._hand_out(session, worker)
 
     def _hand_out(self, session: pytest.Session, worker: '_Worker') -> None:
@@ -239,6 +242,7 @@ def _be_worker(
     """Run what the parent sends, and end this process; called in a fork."""
     code = 1
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
         _leave_streams_to_the_parent(session.config)
         begin()
         try:

@@ -24,6 +24,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from support.running_programs import PATIENCE
 from support.serving import serving
+from support.waiting import until
 from tf2_msgs.msg import TFMessage
 
 from amr_description.model.frames import Transform
@@ -96,6 +97,7 @@ class NavigationServer:
         self.accepts = self.cancels = True
         self.ends = threading.Event()
         self.outcome = 'succeed'
+        self._is_heard = lambda: node.count_subscribers(f'{action}/_action/feedback')
         self._action = ActionServer(
             node,
             NavigateToPose,
@@ -112,6 +114,7 @@ class NavigationServer:
         self.goals.append(handle)
         feedback = NavigateToPose.Feedback(distance_remaining=3.24, number_of_recoveries=2)
         feedback.estimated_time_remaining.sec = 8
+        until(self._is_heard)  # the goal may come before the node knows who hears its feedback
         handle.publish_feedback(feedback)
         assert self.ends.wait(PATIENCE)
         self.ends.clear()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A page without a browser: a WebSocket that talks with the node viewer, for tests."""
 
-from contextlib import ExitStack
+from contextlib import contextmanager, ExitStack
 import json
 import socket
 import threading
@@ -22,6 +22,20 @@ NOW_AND_THEN = 0.02
 def open_socket(url, subprotocols=(PROTOCOL,), **options):
     """The WebSocket of the page at this address, a context manager."""
     return page_socket(url, subprotocols, open_timeout=PATIENCE, **options)
+
+
+@contextmanager
+def kept_port():
+    """
+    A TCP port of 127.0.0.1 for one server after the other, and for nobody else in between.
+
+    One that the system chose for a server is anybody's as soon as that has ended. This one stays
+    bound by a socket that does not listen, which keeps out all but servers that name the port.
+    """
+    with socket.socket() as keeper:
+        keeper.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as servers do
+        keeper.bind(('127.0.0.1', 0))
+        yield keeper.getsockname()[1]
 
 
 def deaf(url):

@@ -101,8 +101,9 @@ class Program:
 
     def hang_up(self):
         """Close the terminal, as when its window is closed."""
-        os.close(self._slave)
-        os.close(self._master)
+        for end in (self._slave, self._master):
+            os.close(end)
+        self._slave = self._master = None  # what others open now may have these numbers
 
     def signal(self, signum):
         """Send a signal to the program alone."""

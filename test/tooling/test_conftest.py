@@ -7,6 +7,7 @@ import os
 import socket
 
 import pytest
+from support.paths import TESTS
 from support.running_programs import Program
 
 from amr_description.errors import SimulationError
@@ -57,6 +58,18 @@ def take():
 
 def test_no_domain_is_taken_twice(taken):
     assert len({int(os.environ['ROS_DOMAIN_ID']), *taken}) == 6
+
+
+def test_the_next_file_has_another_domain(pytestconfig, monkeypatch):
+    conftest = pytestconfig.pluginmanager.get_plugin(str(TESTS / 'conftest.py'))
+    before, lock = program.take_domain()
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(before))
+    monkeypatch.setitem(conftest.KEPT, 'lock', lock)
+    conftest.change_domain()
+    assert os.environ['ROS_DOMAIN_ID'] != str(before)
+    with pytest.raises(OSError, match='Bad file descriptor'):
+        os.fstat(lock)
+    os.close(conftest.KEPT['lock'])
 
 
 def test_a_domain_given_back_can_be_taken_but_not_by_whose_shell_has_it(taken, monkeypatch):

@@ -13,6 +13,7 @@ import math
 from pathlib import Path
 import threading
 import time
+from types import SimpleNamespace
 
 from hypothesis import given, strategies as st
 import pytest
@@ -24,8 +25,9 @@ from support.waiting import until
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareDeactivationError, HardwareError
-from amr_description.hardware import HARDWARE
+from amr_description.hardware import HARDWARE, serial_link
 from amr_description.hardware.serial_base_system import SerialBaseSystem
+from amr_description.hardware.serial_link import SerialLink
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
@@ -165,8 +167,16 @@ def test_a_port_without_an_answer_is_refused(plugged, board):
     )
 
 
-def test_noise_at_the_port_is_shown(plugged, board):
+def test_noise_at_the_port_is_shown(plugged, board, monkeypatch):
     board.tamper = lambda answer: b'$GPGGA,0*00\n' if answer else b''
+    wait_for = SerialLink.wait_for
+
+    def wait_after_noise(link, condition, timeout):
+        # The thread of the board may get no processor within so short a timeout.
+        until(lambda: link.status.refused)
+        return wait_for(link, condition, timeout)
+
+    monkeypatch.setattr(SerialLink, 'wait_for', wait_after_noise)
     fails_to_connect(
         r"what came instead: \d lines such as b'[$]GPGGA,0\*00'; check",
         plugged.port,
@@ -331,30 +341,34 @@ def test_a_line_that_is_stuck_is_not_filled_with_commands(rig, board):
     # At first two, then one each 50 ms until it gives up: after 250 ms, or later where it has to
     # wait for a processor.
     most = 3 + (time.monotonic() - begin) / 0.05
+    until(lambda: Disarm in map(type, received(board)))  # the last that the link has sent
     assert 2 <= len([m for m in received(board) if isinstance(m, Set)]) <= most
 
 
-def test_a_program_that_was_stopped_for_a_while_goes_on(plugged, board):
+def test_a_program_that_was_stopped_for_a_while_goes_on(plugged, board, monkeypatch):
+    now = 0.0  # of the link, s: nothing else takes time
+    monkeypatch.setattr(serial_link, 'time', SimpleNamespace(monotonic=lambda: now))
     rig = Rig(plugged.port)
     rig.start()
-    port, stopped = rig.system._board._link._serial, threading.Event()
+    port, has_gone_on = rig.system._board._link._serial, threading.Event()
     read = port.read
 
-    def stop(_size):
+    def stop(size):
+        nonlocal now
+        if rig.system._board._link._asked_at is None:
+            return read(size)
+        now += 60.0  # more than the link waits for an answer
         port.read = go_on
-        rig.answer_within(0.05)
-        threading.Event().wait(0.2)
         return b''
 
     def go_on(size):
         port.read = read
-        rig.answer_within(5.0)
-        stopped.set()
+        has_gone_on.set()
         return read(size)
 
     port.read = stop
     rig.system.write(0, 10 * MS)
-    assert stopped.wait(PATIENCE)
+    assert has_gone_on.wait(PATIENCE)
     drive(rig, board)
     rig.system.cleanup()
 

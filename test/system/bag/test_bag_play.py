@@ -16,6 +16,8 @@ TEXTS = [
     (45, '/other', 'other.'),
 ]
 
+LISTENING = ('--qos-reliability', 'reliable', '--qos-depth', '50')
+
 
 @pytest.fixture(scope='module')
 def bag(tmp_path_factory):
@@ -23,7 +25,7 @@ def bag(tmp_path_factory):
 
 
 def test_whoever_subscribes_before_gets_all(bag):
-    with started('topic', 'echo', '/heard', 'std_msgs/msg/String', '--qos-depth', '50') as echo:
+    with started('topic', 'echo', '/heard', 'std_msgs/msg/String', *LISTENING) as echo:
         # The player finds it before it begins.
         with started(
             'topic', 'pub', '-r', '50', '/heard', 'std_msgs/msg/String', 'data: x'

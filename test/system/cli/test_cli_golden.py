@@ -112,7 +112,7 @@ def steady(text):
 @pytest.mark.parametrize('recording', ALL)
 def test_a_command_does_what_the_genuine_one_does(replayed, recording):
     result = replayed[recording]
-    assert not isinstance(result, subprocess.TimeoutExpired), result
+    assert not isinstance(result, subprocess.TimeoutExpired), (result, result.stderr)
     assert result.returncode == recording.code, result.stderr
     assert steady(result.stdout) == steady(recording.stdout)
     said = steady(result.stderr).splitlines()

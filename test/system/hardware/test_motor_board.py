@@ -33,9 +33,22 @@ from amr_description.parameters import build
 NAME = 'AmrSystem'
 
 
+# The program, but it waits for its host, which may have to wait for a processor.
+PATIENT = f"""
+import sys
+from amr_description.nodes import motor_board
+motor_board._GRACE = {PATIENCE}
+sys.exit(motor_board.main())
+"""
+
+
 def run_board(link):
     """Run the program; wait for its port."""
-    program = Program.module('motor_board', '--link', str(link))
+    return at_work(Program.module('motor_board', '--link', str(link)), link)
+
+
+def at_work(program, link):
+    """Wait for its port."""
     program.expect(f'motor_board: on /dev/pts/[0-9]+, linked as {link}\n')
     return program
 
@@ -169,9 +182,10 @@ class Robot:
 @pytest.fixture
 def robot(tmp_path):
     """Driving at 0.5 m/s on the program; ``robot.board`` is that."""
-    with run_board(tmp_path / 'board') as program:
-        robot = Robot(tmp_path / 'board')
-        robot.board, robot.link = program, tmp_path / 'board'
+    link = tmp_path / 'board'
+    with at_work(Program.of(PATIENT, '--link', str(link)), link) as program:
+        robot = Robot(link)
+        robot.board, robot.link = program, link
         robot.turn_until(lambda: any(o.x > 0.1 for o in robot.odometry), 0.5)
         yield robot
         robot.manager.shut_down(robot.time)
@@ -211,6 +225,19 @@ def test_is_not_unplugged_from_a_robot_that_is_shut_down_with_it(robot):
     assert not robot.link.is_symlink()
 
 
+@pytest.fixture
+def port_number(robot):
+    """
+    Keep the number of the pseudo-terminal from others, while and after the board has it.
+
+    The link of a board that was killed would lead to theirs.
+    """
+    port = os.open(robot.link, os.O_RDWR | os.O_NOCTTY)
+    yield
+    os.close(port)
+
+
+@pytest.mark.usefixtures('port_number')
 @pytest.mark.parametrize('signum', [signal.SIGTERM, signal.SIGKILL])
 def test_unplugged_while_driving_and_plugged_in_again(robot, signum):
     robot.board.end(signum)

@@ -3,6 +3,7 @@
 """Many clients at once, and a log that nobody reads: the simulator answers every request."""
 
 import fcntl
+from functools import partial
 import random
 import threading
 
@@ -23,6 +24,9 @@ from simulation_interfaces.srv import (
 )
 from support.ros_processes import PATIENCE, run, running
 from support.simulator import SIMULATOR, Simulator, URDF
+
+from amr_description.ros.qos import SERVICE_CLIENT
+from amr_description.ros.service_calls import ask_until_answered, NoAnswerError
 
 CLIENTS, REQUESTS = 4, 40
 CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')
@@ -45,7 +49,7 @@ class Client:
         self.node = Node(f'client_{number}')
         self.executor = SingleThreadedExecutor()
         self.executor.add_node(self.node)
-        client = self.node.create_client
+        client = partial(self.node.create_client, qos_profile=SERVICE_CLIENT)
         state = client(SetSimulationState, f'{SIMULATOR}/set_simulation_state')
         self.makers = [
             (state, self.state),
@@ -78,8 +82,14 @@ class Client:
         return SwitchController.Request(deactivate_controllers=names, strictness=1)
 
     def run(self):
-        for client, _ in self.makers:
-            assert client.wait_for_service(PATIENCE)
+        try:
+            for client, make in self.makers:
+                assert client.wait_for_service(PATIENCE)
+                # The simulator may not know this client yet: it throws its answer away then.
+                ask_until_answered(self.node, client, make(), timeout=PATIENCE)
+        except NoAnswerError as error:
+            self.failure = str(error)
+            return
         for _ in range(REQUESTS):
             client, make = self.random.choice(self.makers)
             request = make()

@@ -24,7 +24,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from support import chromium
 from support.needs import need
-from support.page import Page
+from support.page import kept_port, Page
 from support.running_programs import PATIENCE, Program
 from test_viewer_stop import AHEAD, graph, Stranger
 
@@ -271,8 +271,8 @@ def test_the_joystick(page, ears):
 
 @pytest.mark.parametrize('modifier', ['Shift', 'Control'])
 def test_a_drag_with_shift_moves_and_one_with_ctrl_pulls_the_robot(page, ears, modifier):
-    x, y = page.centre_of('canvas.scene')  # the camera follows the robot
     ears.wait(page.stands_still)  # it has come to where the robot was put back before
+    x, y = page.centre_of('canvas.scene')  # the camera follows the robot
     begin = ears.position
     page.mouse('mousePressed', x, y, [modifier])
     page.mouse('mouseMoved', x + 500, y, [modifier])
@@ -395,8 +395,9 @@ def test_what_stands_still_is_said_to_be_old(page, simulation, ears):
     (simulator,) = descendants(simulation.process.pid, 'mujoco_sim')
     os.kill(simulator, signal.SIGSTOP)
     try:
+        # Or more: one that is busy does not show each second.
         page.wait_until(
-            "document.querySelector('.chip.link').textContent.match('No data for 2 s')"
+            r"/No data for ([2-9]|\d\d) s/.test(document.querySelector('.chip.link').textContent)"
         )
         page.wait_until("document.querySelectorAll('.readout .stale').length === 2")
         page.wait_until("document.querySelector('.factor').textContent === '–'")
@@ -411,11 +412,13 @@ def descendants(parent, name):
     """The processes below another one that run this program."""
     found = []
     for path in Path('/proc').glob(f'{parent}/task/*/children'):
-        for child in path.read_text().split():
-            with suppress(FileNotFoundError, ProcessLookupError):  # it has ended since
-                if f'/{name}\0' in Path(f'/proc/{child}/cmdline').read_text():
-                    found.append(int(child))
-            found += descendants(child, name)
+        with suppress(FileNotFoundError, ProcessLookupError):  # the thread has ended since
+            children = path.read_text().split()
+            for child in children:
+                with suppress(FileNotFoundError, ProcessLookupError):  # it has ended since
+                    if f'/{name}\0' in Path(f'/proc/{child}/cmdline').read_text():
+                        found.append(int(child))
+                found += descendants(child, name)
     return found
 
 
@@ -480,13 +483,13 @@ def test_a_spawned_robot_comes_into_view_and_a_deleted_one_goes_with_its_trails(
 
 def test_the_page_comes_back_when_the_server_does(browser, simulation):
     with ExitStack() as stack:
-        first = stack.enter_context(serving())
+        port = stack.enter_context(kept_port())
+        first = stack.enter_context(serving(port))
         url = url_of(first)
         page = browser.open(url, webgl=False)
         is_shown(page)
         assert first.end(signal.SIGKILL) == -signal.SIGKILL
         page.wait_until("amr.now.link !== 'open'")
-        port = url.rstrip('/').rpartition(':')[2]
         second = stack.enter_context(serving(port))
         assert url_of(second) == url
         count = page.evaluate('amr.now.states')

@@ -27,6 +27,7 @@ from amr_description.testing.program import own_domain
 DRAWN = 'amr.now.scene.navigation'
 BAR = "document.querySelector('.navigation')"
 PRESSED = "document.querySelector('.navigation [aria-pressed=true]')"
+FEEDBACK = '/navigate_to_pose/_action/feedback'
 STOPPED = "document.querySelector('.stop-row.held')"
 
 
@@ -233,6 +234,8 @@ def server(robot):
     yield server
     server.ends.set()
     server.destroy()
+    # Until the page's server knows, it gives goals of the next test by the action.
+    until(lambda: not robot.count_subscribers(FEEDBACK))
 
 
 def words(page, text):
@@ -251,7 +254,7 @@ def test_a_goal_by_the_action_is_followed_cancelled_and_stopped(page, robot, ser
         return handle
 
     # The page's server has found it, and has a client: until then goals go by the topic.
-    until(lambda: robot.count_subscribers('/navigate_to_pose/_action/feedback'))
+    until(lambda: robot.count_subscribers(FEEDBACK))
     handle = give()
     assert handle.request.pose.header.frame_id == 'map'
     assert is_at_the_robot(handle.request.pose.pose)

@@ -11,6 +11,8 @@ OFFERED = """
     [...document.querySelectorAll('.view-tools button')]
       .filter((each) => !each.hidden).map((each) => each.textContent)
 """
+EMPTY = "document.querySelector('.view-words h2')?.textContent === 'No robot'"
+"""Whether the page has been told so; before that it knows of no robot, but offers all."""
 DRIVES = "document.querySelector('.drive-head .chip').textContent"
 
 
@@ -20,7 +22,7 @@ def test_what_acts_on_a_robot_comes_and_goes_with_it(browser):
     drive.known = (Graph((), (), None),)
     with serving(drive, rate=20.0) as server:
         page = browser.open(server.url, width=1280, height=760)
-        page.wait_until(f"{DRIVES} === 'No robot'")
+        page.wait_until(f"{EMPTY} && {DRIVES} === 'No robot'")
         without = page.evaluate(OFFERED)
         drive.new = with_robot
         page.wait_until(f"{DRIVES} === 'Nobody drives'")

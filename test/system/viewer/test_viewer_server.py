@@ -10,7 +10,7 @@ import socket
 from urllib.parse import urlsplit
 
 import pytest
-from support.page import deaf, open_socket, Page
+from support.page import deaf, kept_port, open_socket, Page
 from support.running_programs import PATIENCE, Program
 from websockets.exceptions import InvalidHandshake, InvalidStatus
 
@@ -336,15 +336,16 @@ def test_elsewhere_only_who_has_the_address_may():
 
 
 def test_it_ends_with_pages_and_strangers_connected_and_pages_come_back_to_the_next():
-    with viewer() as program:
-        url = url_of(program)
-        with Page(url) as page, socket.create_connection(address(url)):
-            page.wait(lambda: page.last('graph'))
-            assert program.end(signal.SIGTERM) == 0
-            assert page.wait_closed() == (1012, 'the viewer has ended')
-        assert len(program.lines) == 1, program.output
-    with viewer(f'port:={urlsplit(url).port}') as program:
-        assert url_of(program) == url
-        with Page(url) as page:
-            assert page.wait(lambda: page.last('hello'))['client'] == 'page 1'
-            assert program.end(signal.SIGHUP) == 0
+    with kept_port() as port:
+        with viewer(f'port:={port}') as program:
+            url = url_of(program)
+            with Page(url) as page, socket.create_connection(address(url)):
+                page.wait(lambda: page.last('graph'))
+                assert program.end(signal.SIGTERM) == 0
+                assert page.wait_closed() == (1012, 'the viewer has ended')
+            assert len(program.lines) == 1, program.output
+        with viewer(f'port:={port}') as program:
+            assert url_of(program) == url
+            with Page(url) as page:
+                assert page.wait(lambda: page.last('hello'))['client'] == 'page 1'
+                assert program.end(signal.SIGHUP) == 0
