@@ -19,7 +19,16 @@ import tempfile
 
 from hypothesis import settings
 import pytest
-from support import failures, forked_workers, leftovers, ordering, preloaded, udp_contexts
+from support import (
+    failures,
+    forked_workers,
+    leftovers,
+    ordering,
+    preloaded,
+    repeating,
+    second_look,
+    udp_contexts,
+)
 
 from amr_description.errors import SimulationError
 from amr_description.testing import program
@@ -62,6 +71,17 @@ def pytest_addoption(parser):
         help='run whole files in N processes, the longest first; auto: as many as are of use',
     )
     parser.addoption(
+        '--no-flaky',
+        action='store_true',
+        help='with --workers: a test that fails, and passes when it is run once more alone, fails',
+    )
+    parser.addoption(
+        '--repeat', metavar='N', type=int, default=0, help='run the tests N times, one by one'
+    )
+    parser.addoption(
+        '--load', metavar='N', type=int, default=0, help='with --repeat: beside N busy processes'
+    )
+    parser.addoption(
         '--long', action='store_true', help='also what is worth an hour: tests marked long'
     )
 
@@ -78,15 +98,16 @@ def pytest_configure(config):
         config.option.random_order = secrets.token_hex(4)
     if config.option.workers == 'auto':
         config.option.workers = suitable_workers(config)
-    if config.option.workers:
-        plugin = forked_workers.ForkedWorkers(
-            config.option.workers,
-            lambda number: begin_worker(config, number),
-            give_back,
-            lambda items: ordering.groups(items, KEPT['durations']),
-            None if config.option.long else LONGEST_TEST,
+    if config.option.repeat:
+        workers = forked_workers_of(config, 1)
+        config.pluginmanager.register(
+            repeating.Repeating(workers, config.option.repeat, config.option.load)
         )
-        config.pluginmanager.register(plugin)
+    elif config.option.workers:
+        if not config.option.maxfail:
+            strict = config.option.no_flaky or config.option.long
+            KEPT['second_look'] = second_look.SecondLook(strict=strict)
+        config.pluginmanager.register(forked_workers_of(config, config.option.workers))
     KEPT['durations'] = ordering.read_durations(ordering.OWN_TABLE, ordering.SEED_TABLE)
     config.pluginmanager.register(Recording(config))
     # A background job starts with Ctrl-C ignored, which every child would inherit.
@@ -106,6 +127,19 @@ def pytest_configure(config):
             dict.fromkeys(prefix for prefix in (*prefixes, *known) if prefix)
         ),
     }
+
+
+def forked_workers_of(config, count):
+    """What runs tests in that many processes."""
+    second_look.begin()
+    return forked_workers.ForkedWorkers(
+        count,
+        lambda number: begin_worker(config, number),
+        give_back,
+        lambda items: ordering.groups(items, KEPT['durations']),
+        None if config.option.long else LONGEST_TEST,
+        KEPT.get('second_look'),
+    )
 
 
 def take_ros_of_its_own():
@@ -233,7 +267,8 @@ def pytest_report_header(config):
 
 
 def pytest_terminal_summary(terminalreporter, config):
-    for note in order_notes(config):
+    flaky = KEPT['second_look'].lines() if 'second_look' in KEPT else []
+    for note in (*order_notes(config), *flaky):
         terminalreporter.write_line(note)
 
 

@@ -9,7 +9,8 @@ of processor time where their compiled files are not there yet, and four where t
 done once, not in each worker.
 
 A worker writes no report. It sends what its tests report to the process that it was forked from,
-whose plugins hear of it as if the tests ran there.
+whose plugins hear of it as if the tests ran there; of a test that failed once it was looked at
+again (``second_look.py``), in a worker of its own after all others.
 """
 
 from collections import deque
@@ -28,6 +29,7 @@ from typing import Any
 import warnings
 
 import pytest
+from support.second_look import SecondLook
 
 from amr_description.forking import ForkTracing
 
@@ -35,6 +37,7 @@ END_TIMEOUT = 10.0
 """s that the workers have for what their tests tear down, when the run is interrupted."""
 
 _REQUEST = 'next'
+_IS_OVER = 'is over'
 
 
 class ForkedWorkers:
@@ -48,6 +51,7 @@ class ForkedWorkers:
         groups_of: Says what each test belongs to. What belongs together runs in one worker.
         longest: s that one test may take; one that takes longer waits for ever: it fails, and
             where each of its threads stands is written to stderr. None: no bound.
+        second_look: For tests that fail; None: they have failed.
     """
 
     def __init__(
@@ -57,14 +61,17 @@ class ForkedWorkers:
         end: Callable[[], object],
         groups_of: Callable[[Sequence[pytest.Item]], Iterable[object]],
         longest: float | None = None,
+        second_look: SecondLook | None = None,
     ) -> None:
         self._count = count
+        self._second_look = second_look
         self._longest = longest
         self._groups_of = groups_of
         self._begin = begin
         self._end = end
         self._workers: dict[Connection, _Worker] = {}
         self._groups: deque[list[int]] = deque()
+        self._tell: Callable[[int, list[pytest.TestReport]], None] = lambda *_: None
         self._tracing: ForkTracing | None = None
 
     @pytest.hookimpl(tryfirst=True)
@@ -73,27 +80,75 @@ class ForkedWorkers:
         option = session.config.option
         if option.collectonly or session.testsfailed and not option.continue_on_collection_errors:
             return None  # pytest itself does, and says, what is to be done
-        reporter = session.config.pluginmanager.get_plugin('terminalreporter')
-        if reporter is not None:
-            reporter.showfspath = False  # tests of several files come in turn
-        self._groups.extend(together(self._groups_of(session.items)))
-        self._tracing = ForkTracing()
-        try:
-            for number in range(min(self._count, len(self._groups))):
-                self._fork(session, number)
-            while self._workers:
-                for each in connection.wait([*self._workers], self._longest):
-                    assert isinstance(each, Connection)
-                    self._workers[each].heard_at = time.monotonic()
-                    self._hear(session, self._workers[each])
-                self._abort_silent()
-        finally:
-            self._end_all()
+        self._run_all(session)
         if session.shouldfail:
             raise session.Failed(session.shouldfail)
         if session.shouldstop:
             raise session.Interrupted(session.shouldstop)
         return True
+
+    def run_alone(self, session: pytest.Session, index: int) -> list[pytest.TestReport]:
+        """
+        Run a test once more, in a new worker, and return what it reports.
+
+        Of a file that is marked ``in_order`` what stands before it runs before it. To be called
+        when no other test runs.
+        """
+        reports: list[pytest.TestReport] = []
+
+        def collect(place: int, found: list[pytest.TestReport]) -> None:
+            if place == index:
+                reports.extend(found)
+
+        self._groups.append(built_upon(session.items, index))
+        self._run_groups(session, collect)
+        return reports
+
+    def _run_groups(
+        self, session: pytest.Session, tell: Callable[[int, list[pytest.TestReport]], None]
+    ) -> None:
+        """Run the groups that wait; ``tell`` takes the place of each test and its reports."""
+        self._tell = tell
+        self._tracing = self._tracing or ForkTracing()
+        for number in range(min(self._count, len(self._groups))):
+            self._fork(session, number)
+        while self._workers:
+            for each in connection.wait([*self._workers], self._longest):
+                assert isinstance(each, Connection)
+                self._workers[each].heard_at = time.monotonic()
+                self._hear(session, self._workers[each])
+            self._abort_silent()
+
+    def _run_all(self, session: pytest.Session) -> None:
+        """Run all tests, and those that fail once more; have the plugins hear of what counts."""
+        hook, second_look = session.config.hook, self._second_look
+        reporter = session.config.pluginmanager.get_plugin('terminalreporter')
+        if reporter is not None:
+            reporter.showfspath = False  # tests of several files come in turn
+
+        def tell(index: int, reports: list[pytest.TestReport]) -> None:
+            nodeid, location = session.items[index].nodeid, session.items[index].location
+            hook.pytest_runtest_logstart(nodeid=nodeid, location=location)
+            if second_look is not None and second_look.withholds(index, reports):
+                if reporter is not None:
+                    reporter.ensure_newline()
+                    reporter.write_line(f'{nodeid} failed; it will run once more, alone')
+            else:
+                for report in reports:
+                    hook.pytest_runtest_logreport(report=report)
+            hook.pytest_runtest_logfinish(nodeid=nodeid, location=location)
+
+        self._groups.extend(together(self._groups_of(session.items)))
+        try:
+            self._run_groups(session, tell)
+            for index in second_look.to_look_at() if second_look is not None else ():
+                if session.shouldfail or session.shouldstop:
+                    break
+                second_look.note(index, self.run_alone(session, index))
+        finally:
+            self._end_all()
+            for report in second_look.results() if second_look is not None else ():
+                hook.pytest_runtest_logreport(report=report)
 
     def _fork(self, session: pytest.Session, number: int) -> None:
         ours, theirs = Pipe()
@@ -136,26 +191,24 @@ class ForkedWorkers:
             self._hand_out(session, worker)
             return
         for name, arguments in message:
-            self._report(session, worker, name, arguments)
+            self._take(session, worker, name, arguments)
 
-    def _report(
+    def _take(
         self, session: pytest.Session, worker: '_Worker', name: str, arguments: dict[str, Any]
     ) -> None:
-        """Have the plugins hear of what a worker has reported."""
+        """Take a part of what a worker has reported; a test is told when it is over."""
         hook = session.config.hook
         if name == 'pytest_runtest_logreport':
-            report = hook.pytest_report_from_serializable(config=session.config, data=arguments)
-            hook.pytest_runtest_logreport(report=report)
-            return
-        if name == 'pytest_warning_recorded':
+            worker.reports.append(
+                hook.pytest_report_from_serializable(config=session.config, data=arguments)
+            )
+        elif name == 'pytest_warning_recorded':
             text, category, filename, lineno = arguments.pop('warning')
             record = warnings.WarningMessage(category(text), category, filename, lineno)
             arguments['warning_message'] = record
             hook.pytest_warning_recorded.call_historic(kwargs=arguments)
-            return
-        if name == 'pytest_runtest_logfinish':
-            worker.outstanding.popleft()
-        getattr(hook, name)(**arguments)
+        elif name == _IS_OVER:
+            self._tell(worker.outstanding.popleft(), worker.take_reports())
 
     def _note_end(self, session: pytest.Session, worker: '_Worker') -> None:
         """Reap a worker; one that has left tests behind has failed one, another does the rest."""
@@ -167,7 +220,8 @@ class ForkedWorkers:
             return
         if not worker.outstanding:
             raise RuntimeError(f'worker {worker.number} {_how_ended(code)}')
-        item = session.items[worker.outstanding.popleft()]
+        index = worker.outstanding.popleft()
+        item = session.items[index]
         report = pytest.TestReport(
             item.nodeid,
             item.location,
@@ -176,7 +230,7 @@ class ForkedWorkers:
             f'the process that ran {item.nodeid} {_how_ended(code)}',
             '???',  # nobody knows
         )
-        session.config.hook.pytest_runtest_logreport(report=report)
+        self._tell(index, [*worker.take_reports(), report])
         if worker.outstanding:
             self._groups.appendleft([*worker.outstanding])
         if self._groups:
@@ -219,6 +273,21 @@ class _Worker:
         self.connection = link
         self.heard_at = time.monotonic()
         self.outstanding: deque[int] = deque()
+        self.reports: list[pytest.TestReport] = []
+        """Of the test that runs."""
+
+    def take_reports(self) -> list[pytest.TestReport]:
+        """Return what the test that is over has reported."""
+        reports, self.reports = self.reports, []
+        return reports
+
+
+def built_upon(items: Sequence[pytest.Item], index: int) -> list[int]:
+    """Return the places of what has to run for a test: it alone, or its file up to it."""
+    item = items[index]
+    if item.get_closest_marker('in_order') is None:
+        return [index]
+    return [place for place in range(index + 1) if items[place].path == item.path]
 
 
 def together(groups: Iterable[object]) -> list[list[int]]:
@@ -314,15 +383,12 @@ class _Reporting:
         self._link = link
         self._reports: list[tuple[str, dict[str, Any]]] = []
 
-    def pytest_runtest_logstart(self, nodeid: str, location: Sequence[object]) -> None:
-        self._send('pytest_runtest_logstart', nodeid=nodeid, location=location)
-
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         data = self._config.hook.pytest_report_to_serializable(config=self._config, report=report)
         self._reports.append(('pytest_runtest_logreport', data))
 
-    def pytest_runtest_logfinish(self, nodeid: str, location: Sequence[object]) -> None:
-        self._send('pytest_runtest_logfinish', nodeid=nodeid, location=location)
+    def pytest_runtest_logfinish(self) -> None:
+        self._send(_IS_OVER)
         self.send_all()
 
     def pytest_warning_recorded(

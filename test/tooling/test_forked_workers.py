@@ -15,20 +15,45 @@ from support.running_programs import PATIENCE, Program
 
 CONFTEST = """
 import os, pathlib, pytest
+from support import failures, second_look
 from support.forked_workers import ForkedWorkers
+from support.repeating import Repeating
+
+failures.FAILURES = pathlib.Path('failures').resolve()
+second_look.FLAKY = pathlib.Path('flaky').resolve()
+looks = os.environ['LOOKS']
+second = second_look.SecondLook(strict=looks == 'strict') if looks else None
 
 def note(*words):
     with open('notes', 'a') as file:
         print(*words, file=file)
 
+def pytest_addoption(parser):
+    parser.addoption('--repeat', type=int)
+
 def pytest_configure(config):
-    config.pluginmanager.register(ForkedWorkers(
+    config.addinivalue_line('markers', 'in_order')
+    workers = ForkedWorkers(
         2,
         lambda number: note('begin', number, os.getpid()),
         lambda: note('end', os.getpid()),
         lambda items: [item.path for item in items],
         float(os.environ['LONGEST']) if 'LONGEST' in os.environ else None,
-    ))
+        second,
+    )
+    repeat = config.option.repeat
+    config.pluginmanager.register(Repeating(workers, repeat, load=1) if repeat else workers)
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item):
+    report = yield
+    if report.failed:
+        failures.keep(item.nodeid, report.longreprtext, None)
+    return report
+
+def pytest_terminal_summary(terminalreporter):
+    for line in second.lines() if second else ():
+        terminalreporter.write_line(line)
 
 note('collects', os.getpid())
 
@@ -47,14 +72,25 @@ def test_two(): pass
 """
 
 
-def run(folder, *arguments, longest=None, **files):
+FLAKY = """
+import os, pathlib
+def test_first():
+    here = pathlib.Path(__file__).with_suffix('.failed')
+    assert here.exists() or here.touch(), 'at first'
+    print('went well')
+def test_other(): pass
+"""
+
+
+def run(folder, *arguments, longest=None, looks='', **files):
     """Pytest in a folder with these files, in workers; ``longest``: s, of a test."""
     (folder / 'conftest.py').write_text(CONFTEST)
     for name, text in files.items():
         (folder / f'test_{name}.py').write_text(text)
     options = ('-p', 'no:cacheprovider', '-p', 'no:hypothesispytest', '--junitxml=junit.xml')
     # Not the options of this run, such as those of colcon.
-    env = {'PYTEST_ADDOPTS': ''} | ({} if longest is None else {'LONGEST': str(longest)})
+    env = {'PYTEST_ADDOPTS': '', 'LOOKS': looks}
+    env |= {} if longest is None else {'LONGEST': str(longest)}
     return Program(sys.executable, '-m', 'pytest', *options, *arguments, cwd=folder, env=env)
 
 
@@ -169,6 +205,119 @@ def test_not(): pass
         assert all(ends(int(pid)) for _, pid in of('begin', notes(tmp_path)))
     found = notes(tmp_path)
     assert [pid for (pid,) in of('test_waits', found)] in of('torn_down', found)
+
+
+def suite_of(folder):
+    """What the JUnit file has: counts, and the tests that are said to be flaky."""
+    [suite] = ElementTree.parse(folder / 'junit.xml').getroot()
+    counted = tuple(int(suite.get(key)) for key in ('tests', 'failures', 'errors'))
+    flaky = [
+        case.get('classname')
+        for case in suite.iter('testcase')
+        if case.find('properties/property[@name="flaky"]') is not None
+    ]
+    return counted, sorted(flaky)
+
+
+def test_a_test_that_fails_once_is_flaky_and_the_run_is_green(tmp_path):
+    with run(tmp_path, '-rA', looks='normal', a=FLAKY, good=GOOD) as program:
+        assert program.end() == 0, program.output
+    assert '= 4 passed in' in program.output
+    assert 'test_a.py::test_first failed; it will run once more, alone' in program.output
+    assert 'FLAKY test_a.py::test_first' in program.output
+    assert suite_of(tmp_path) == ((4, 0, 0), ['test_a'])
+    (kept,) = (tmp_path / 'flaky').iterdir()
+    assert 'at first' in (kept / 'first.txt').read_text()
+    assert 'at first' in (kept / 'first' / 'failure.txt').read_text()
+    assert 'went well' in (kept / 'second.txt').read_text()
+    assert list((tmp_path / 'failures').iterdir()) == []
+    first, second, *_ = [pid for (pid,) in of('test_a', notes(tmp_path))][::2]
+    assert first != second
+
+
+def test_a_test_that_fails_twice_is_red_and_shows_both(tmp_path):
+    bad = """
+import os
+def test_bad(): assert os.getpid() == 0
+"""
+    with run(tmp_path, looks='normal', bad=bad, a=FLAKY) as program:
+        assert program.end() == pytest.ExitCode.TESTS_FAILED, program.output
+    assert '= 1 failed, 2 passed in' in program.output
+    assert program.output.count('assert os.getpid() == 0') == 2
+    assert 'how it failed the first time' in program.output
+    assert suite_of(tmp_path) == ((3, 1, 0), ['test_a'])
+
+
+@pytest.mark.parametrize(('looks', 'files', 'failed'), [('normal', 4, 4), ('strict', 1, 1)])
+def test_many_files_with_flaky_tests_are_red_and_where_none_may_be_one_is(
+    tmp_path, looks, files, failed
+):
+    names = 'abcd'[:files]
+    with run(tmp_path, looks=looks, good=GOOD, **dict.fromkeys(names, FLAKY)) as program:
+        assert program.end() == pytest.ExitCode.TESTS_FAILED, program.output
+    assert f'= {failed} failed, {files + 2} passed in' in program.output
+    assert suite_of(tmp_path) == ((2 + 2 * files, failed, 0), [f'test_{each}' for each in names])
+
+
+def test_three_files_may_have_flaky_tests(tmp_path):
+    with run(tmp_path, looks='normal', **dict.fromkeys('abc', FLAKY)) as program:
+        assert program.end() == 0, program.output
+    assert '= 6 passed in' in program.output
+    assert '3 flaky: ' in program.output
+
+
+def test_a_fixture_and_a_worker_that_fall_once_are_looked_at_again(tmp_path):
+    falls = """
+import os, pathlib, pytest
+def once(name):
+    is_first = not os.path.exists(name)
+    pathlib.Path(name).touch()
+    return is_first
+@pytest.fixture
+def late():
+    yield
+    assert not once('torn')
+def test_torn(late): pass
+def test_dies():
+    if once('dies'): os._exit(3)
+"""
+    with run(tmp_path, looks='normal', falls=falls, good=GOOD) as program:
+        assert program.end() == 0, program.output
+    assert '= 4 passed in' in program.output
+    assert suite_of(tmp_path) == ((4, 0, 0), ['test_falls', 'test_falls'])
+
+
+def test_what_is_in_order_is_looked_at_with_what_it_builds_on(tmp_path):
+    ordered = """
+import pathlib, pytest
+pytestmark = pytest.mark.in_order('')
+made = []
+def test_makes(): made.append(1)
+def test_takes():
+    here = pathlib.Path('taken')
+    assert made == [1] and (here.exists() or here.touch())
+"""
+    with run(tmp_path, looks='normal', ordered=ordered) as program:
+        assert program.end() == 0, program.output
+    assert '= 2 passed in' in program.output
+
+
+def test_repeating_counts_falls_and_says_where(tmp_path):
+    every_third = """
+import pathlib
+def test_it():
+    count = len(list(pathlib.Path().glob('run*')))
+    pathlib.Path(f'run{count}').touch()
+    assert count % 3 != 1, 'again'
+"""
+    with run(tmp_path, '--repeat', '7', it=every_third) as program:
+        assert program.end() == pytest.ExitCode.TESTS_FAILED, program.output
+    assert '= 2 failed, 5 passed in' in program.output
+    said = program.output.replace('\r', '')
+    assert 'test_it: fell 2 of 7 times\n    2 × test_it.py:6: AssertionError: again' in said
+    (kept,) = (tmp_path / 'flaky').iterdir()
+    assert {each.name for each in kept.iterdir()} == {'run-2', 'run-5'}
+    assert len({pid for (pid,) in of('test_it', notes(tmp_path))}) == 7
 
 
 def wait_for(file, program):

@@ -45,6 +45,21 @@ def test_why_tests_were_skipped_is_said(tmp_path, capsys):
     assert capsys.readouterr().out == ('2 not run: no chromium\n1 passed, 0 failed, 2 skipped\n')
 
 
+def test_flaky_tests_are_named_and_counted_apart(tmp_path, capsys):
+    file = tmp_path / 'pytest.xml'
+    flaky = '<properties><property name="flaky" value="test/a.py"/></properties>'
+    file.write_text(
+        '<testsuite tests="3" failures="1"><testcase/>'
+        f'<testcase classname="test.a" name="test_it">{flaky}</testcase>'
+        f'<testcase>{flaky}<failure/></testcase></testsuite>'
+    )
+    assert main(file, 0) == 1
+    assert capsys.readouterr().out == (
+        'flaky, its two logs are in build/tests/flaky/: test.a.test_it\n'
+        '1 passed, 1 failed, 1 flaky\n'
+    )
+
+
 def test_failing_colcon_fails(results, capsys):
     assert main(results(3), 1) == 1
     assert capsys.readouterr().out == '3 passed, 0 failed\n'
