@@ -12,11 +12,20 @@ from collections.abc import Iterator
 import contextlib
 import os
 import shutil
-import signal
+import subprocess
+import sys
 
 import pytest
 from support import failures, second_look
 from support.forked_workers import ForkedWorkers
+
+
+_USE_TIME = """
+import os
+parent = os.getppid()
+while os.getppid() == parent:
+    sum(range(100_000))
+"""
 
 
 class Repeating:
@@ -74,20 +83,12 @@ def place_of(report: pytest.TestReport) -> str:
 @contextlib.contextmanager
 def busy_processes(count: int) -> Iterator[None]:
     """Have processes use all the time of a processor that they get; they end with this one."""
-    pids = [_busy_process(os.getpid()) for _ in range(count)]
+    command = [sys.executable, '-SEc', _USE_TIME]
+    # In a session of their own: Ctrl-C is for the tests, which end them.
+    processes = [subprocess.Popen(command, start_new_session=True) for _ in range(count)]
     try:
         yield
     finally:
-        for pid in pids:
-            os.kill(pid, signal.SIGKILL)
-            os.waitpid(pid, 0)
-
-
-def _busy_process(parent: int) -> int:
-    pid = os.fork()
-    if pid == 0:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends it
-        while os.getppid() == parent:
-            sum(range(100_000))
-        os._exit(0)
-    return pid
+        for process in processes:
+            process.kill()
+            process.wait()
