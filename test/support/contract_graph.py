@@ -21,12 +21,13 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
+from support.serving import serve
 from tf2_msgs.msg import TFMessage
 
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
-from amr_description.ros.runtime import end_wait, spin
+from amr_description.ros.runtime import end_wait
 from amr_description.ros.service_calls import wait_until
 from amr_description.tf2_ros.buffer import transform_message
 from amr_description.tf2_ros.time_cache import StampedTransform
@@ -78,7 +79,7 @@ class Nodes:
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes = []
         self.ended = threading.Event()
-        self.thread = threading.Thread(target=spin, args=(self.executor, self.ended.is_set))
+        self.thread = threading.Thread(target=serve, args=(self.executor, self.ended.is_set))
         self.thread.start()
 
     def make(self, name, *, use_sim_time=True):

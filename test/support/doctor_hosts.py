@@ -11,6 +11,8 @@ from amr_description.doctor.observations.processes import Process, Processes
 from amr_description.doctor.table import examine
 
 GIGABYTE = 10**9
+BUSY_MACHINE = {'overloaded', 'memory_short'}
+"""Rules that are true of a machine with much else to do, and no fault of what is tested."""
 SUFFIX = '.cpython-312-x86_64-linux-gnu.so'
 LOOPBACK = Interface(name='lo', is_loopback=True, has_multicast=False, addresses=('127.0.0.1',))
 ETHERNET = Interface(name='eth0', addresses=('192.0.2.2',))

@@ -8,9 +8,10 @@ import os
 from fixtures.bringup.running import Bringup
 from fixtures.cli.commands import ros2
 import pytest
+from support.doctor_hosts import BUSY_MACHINE
 from support.paths import ROOT
 
-BUSY = {'overloaded', 'slow_simulation', 'memory_short', 'navigation_contract'}
+BUSY = {*BUSY_MACHINE, 'slow_simulation', 'navigation_contract'}
 """What is true of any stack on a machine that is too busy."""
 
 SIMULATION = ('simulation', 'viewer:=false')

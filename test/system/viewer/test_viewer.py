@@ -167,7 +167,13 @@ def test_a_page_sees_what_a_robot_is(host, url):
     with Page(url) as page:
         model = host.until(lambda: page.last('model'))
         assert (model['robot'], model['urdf'], model['root']) == ('/', AMR, 'base_footprint')
-        graph = host.until(lambda: (g := page.last('graph'))['robots'] and g)
+
+        def complete():  # its topics are discovered one after the other
+            graph = page.last('graph')
+            found = [robot for robot in graph['robots'] if robot['odometry'] and robot['command']]
+            return found and graph
+
+        graph = host.until(complete)
         (info,) = graph['robots']
         assert (info['id'], info['name'], info['odometry']) == ('/', 'amr', '/odom')
         assert info['command'] == {
