@@ -19,7 +19,6 @@ import pytest
 from support import failures, second_look
 from support.forked_workers import ForkedWorkers
 
-
 _USE_TIME = """
 import os
 parent = os.getppid()
