@@ -23,10 +23,11 @@ it.
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+import math
 from pathlib import Path
 import re
 import sys
-from typing import Any
+from typing import Any, ClassVar
 
 import yaml
 
@@ -38,12 +39,27 @@ EVERY_NODE = '/**'
 """The pattern of a section that is for all nodes."""
 
 _SHAPE = 'a parameter file is written as  node_name: {ros__parameters: {name: value}}'
-# What rcl reads as a number or a truth value, and YAML 1.1 does not.
-_READ_OTHERWISE = re.compile(
-    r'[-+]?(\d+\.?\d*(e[-+]?\d+)?|\.\d+(e[-+]?\d+)?'
-    r'|0x[\da-f]+\.?[\da-f]*(p[-+]?\d+)?|inf(inity)?|nan(\(\w*\))?)|[yn]',
-    re.IGNORECASE,
+_STRING = 'tag:yaml.org,2002:str'
+_PLAIN = 'amr:plain'
+_TRUTH = {
+    **dict.fromkeys(
+        ('Y', 'y', 'yes', 'Yes', 'YES', 'true', 'True', 'TRUE', 'on', 'On', 'ON'), True
+    ),
+    **dict.fromkeys(
+        ('N', 'n', 'no', 'No', 'NO', 'false', 'False', 'FALSE', 'off', 'Off', 'OFF'), False
+    ),
+}
+_INTEGER = re.compile(r'[-+]?(0x[\da-f]+|0[0-7]*|[1-9]\d*)', re.ASCII | re.IGNORECASE)
+_DECIMAL = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?', re.ASCII | re.IGNORECASE)
+_HEXADECIMAL = re.compile(
+    r'[-+]?0x([\da-f]+\.?[\da-f]*|\.[\da-f]+)(p[-+]?\d+)?', re.ASCII | re.IGNORECASE
 )
+_NO_NUMBER = re.compile(r'([-+]?)(inf(inity)?|nan)(\(\w*\))?', re.ASCII | re.IGNORECASE)
+_OF_YAML = re.compile(r'\.(nan|NaN|NAN)|([-+]?)\.(inf|Inf|INF)')
+_LONGEST = 30
+"""Characters of an integer of 64 bits, at most; one of thousands Python refuses to read."""
+_SMALLEST = 2.2250738585072014e-308
+"""The smallest double with all its digits; the C library reports what is smaller as no number."""
 
 
 class YamlError(ParameterError):
@@ -94,6 +110,78 @@ def _opens_without_end(text: str) -> bool:
     return bool(re.match(rf'(?:\s*[\[{{]){{{sys.getrecursionlimit()}}}', text))
 
 
+def scalar_of(text: str) -> bool | int | float | str:
+    """
+    Return what a plain scalar of a parameter file means to rcl: ``5e-2`` is a double.
+
+    As ``get_value`` of rcl_yaml_param_parser does, which asks the C library: ``strtol`` with the
+    base that the text names, then ``strtod``. PyYAML reads YAML 1.1, which differs in both ways:
+    ``1_000``, ``1:30`` and dates are strings to rcl.
+    """
+    if text in _TRUTH:
+        return _TRUTH[text]
+    if len(text) < _LONGEST and _INTEGER.fullmatch(text):
+        digits = text.lstrip('+-')
+        base = 16 if digits[:2] in ('0x', '0X') else 8 if digits[0] == '0' else 10
+        if -(2**63) <= (number := int(text, base)) < 2**63:
+            return number
+    if found := _OF_YAML.fullmatch(text):
+        return math.nan if found[1] else float(f'{found[2]}inf')
+    if found := _NO_NUMBER.fullmatch(text):
+        return float(f'{found[1]}{found[2]}')
+    read = float.fromhex if _HEXADECIMAL.fullmatch(text) else float
+    if read is float and not _DECIMAL.fullmatch(text):
+        return text
+    try:
+        value = read(text)
+    except OverflowError:
+        return text
+    is_lost = math.isinf(value) or (
+        abs(value) < _SMALLEST and re.search('[1-9a-f]', _digits(text))
+    )
+    return text if is_lost else value
+
+
+def _digits(text: str) -> str:
+    """Return a number without its sign, prefix and exponent."""
+    digits = text.lower().lstrip('+-')
+    return digits[2:].partition('p')[0] if digits[:2] == '0x' else digits.partition('e')[0]
+
+
+class _Loader(yaml.SafeLoader):
+    """Reads a parameter file as rcl does: see :func:`scalar_of`; all keys are texts."""
+
+    yaml_implicit_resolvers: ClassVar[dict[Any, Any]] = {}
+
+    def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
+        """Refuse what rcl does not read, with its place; have a plain scalar be known as one."""
+        if self.check_event(yaml.AliasEvent):
+            event = self.peek_event()
+            raise yaml.composer.ComposerError(
+                None, None, f"ROS reads no aliases, as '*{event.anchor}'; write the value out",
+                event.start_mark,
+            )  # fmt: skip
+        node = super().compose_node(parent, index)
+        if isinstance(node, yaml.ScalarNode):
+            is_key = isinstance(parent, yaml.MappingNode) and index is None
+            if is_key and node.value == '<<' and not node.style:
+                raise yaml.composer.ComposerError(
+                    None, None, "ROS merges no tables, as '<<:' does; write the values out",
+                    node.start_mark,
+                )  # fmt: skip
+            is_text = is_key or node.style in ('"', "'") or self._is_string
+            node.tag = _STRING if is_text else _PLAIN
+        return node
+
+    def compose_scalar_node(self, anchor: Any) -> yaml.ScalarNode:
+        """Note whether it is said to be a string; other tags mean nothing to rcl."""
+        self._is_string = self.peek_event().tag == _STRING
+        return super().compose_scalar_node(anchor)
+
+
+_Loader.add_constructor(_PLAIN, lambda _, node: scalar_of(node.value))
+
+
 def compose(text: str) -> yaml.Node | None:
     """
     Return the tree of a parameter file; tables of one key that stands twice are joined.
@@ -101,7 +189,7 @@ def compose(text: str) -> yaml.Node | None:
     So rcl reads it: ``/**:`` may stand above every node of a file, and each counts. PyYAML would
     keep the last one.
     """
-    tree = yaml.compose(text, Loader=yaml.SafeLoader)
+    tree = yaml.compose(text, Loader=_Loader)
     if tree is not None:
         _join_tables(tree, set())
     return tree
@@ -126,10 +214,10 @@ def _join_tables(node: yaml.Node, seen: set[int]) -> None:
         _join_tables(value, seen)
 
 
-def _content_of(text: str) -> Any:
-    """Return what a parameter file holds. Raises what PyYAML raises."""
+def content_of(text: str) -> Any:
+    """Return what the text of a parameter file holds. Raises what PyYAML raises."""
     tree = compose(text)
-    return None if tree is None else yaml.SafeLoader('').construct_document(tree)
+    return None if tree is None else _Loader('').construct_document(tree)
 
 
 def read_parameter_file(path: Path) -> dict[str, Any]:
@@ -146,7 +234,7 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError as error:
         raise ParameterError(f"parameter file '{path}': not UTF-8 text ({error})") from error
     try:
-        content = load_yaml(text, _content_of)
+        content = load_yaml(text, content_of)
         for _ in sections(content if isinstance(content, dict) else {}):
             pass
     except YamlError as error:
@@ -278,15 +366,19 @@ def parameter_file_text(node: str, parameters: Mapping[str, Any]) -> str:
         node: the full name of the node, or a pattern.
         parameters: values that ROS has types for, by dotted name.
     """
-    content = {node: {KEY: _nested(parameters)}}
-    return yaml.dump(content, Dumper=_Dumper, default_flow_style=False)
+    return text_of({node: {KEY: _nested(parameters)}}, sort_keys=True)
+
+
+def text_of(content: Any, *, sort_keys: bool = False) -> str:
+    """Return the text of a parameter file in which :func:`content_of` finds the same."""
+    return yaml.dump(content, Dumper=_Dumper, default_flow_style=False, sort_keys=sort_keys)
 
 
 class _Dumper(yaml.SafeDumper):
     """Quotes the strings that rcl would not read as such."""
 
     def represent_text(self, text: str) -> yaml.ScalarNode:
-        style = "'" if _READ_OTHERWISE.fullmatch(text) else None
+        style = "'" if not isinstance(scalar_of(text), str) else None
         return self.represent_scalar('tag:yaml.org,2002:str', text, style)
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameter files: their faults in one line, their sections, and how they are written."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -9,13 +10,16 @@ import pytest
 from amr_description.errors import ParameterError
 from amr_description.parameter_files import (
     compose,
+    content_of,
     dotted,
     find_keys,
     flatten,
     load_yaml,
     parameter_file_text,
     read_parameter_file,
+    scalar_of,
     sections,
+    text_of,
     YamlError,
 )
 
@@ -35,10 +39,12 @@ def test_nodes_may_stand_below_their_namespaces(tmp_path):
         ('/arm:\n  ros__parameters: {gain: [1', r"bad.yaml:2:29: expected ',' or '\]'"),
         ('/arm:\n\tros__parameters:', 'bad.yaml:2:1: found character'),
         ('/arm: \x07', 'character 7 is U.0007, which YAML does not allow'),
-        ('/arm: 2026-99-99', 'month must be in 1..12'),
+        ('/arm: 2026-99-99', "below '/arm' stands '2026-99-99', and no ros__parameters"),
         ('{\n' * 50_000, 'nested too deeply'),
         ('{\n' * 500 + 'x', 'nested too deeply'),
-        ('a: &x\n  b: *x', 'nested too deeply'),
+        ('a: &x\n  b: *x', r"bad.yaml:2:6: ROS reads no aliases, as '\*x'; write the value out"),
+        ('a: {p: &x [*x]}', r"bad.yaml:1:12: ROS reads no aliases, as '\*x'"),
+        ('a:\n  <<: {b: 1}', "bad.yaml:2:3: ROS merges no tables, as '<<:' does; write the val"),
     ],
 )
 def test_a_fault_is_reported_in_one_line(tmp_path, text, said):
@@ -47,6 +53,38 @@ def test_a_fault_is_reported_in_one_line(tmp_path, text, said):
     with pytest.raises(ParameterError, match=said) as error:
         read_parameter_file(path)
     assert '\n' not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ('text', 'value'),
+    [
+        *(('5e-2', 0.05), ('1E3', 1000.0), ('5.', 5.0), ('+.5', 0.5), ('-0.0', -0.0)),
+        *(('+5', 5), ('010', 8), ('08', 8.0), ('0x1F', 31), ('0x1.8p1', 3.0), ('-0', 0)),
+        *(('inf', math.inf), ('-Infinity', -math.inf), ('-.inf', -math.inf), ('+.INF', math.inf)),
+        *(('y', True), ('On', True), ('NO', False), ('n', False), ('tRUE', 'tRUE'), ('yE', 'yE')),
+        *((text, text) for text in ('1_000', '1_00.0', '1:30', '2026-01-01', '0b11', '0o17')),
+        *((text, text) for text in ('null', '~', '<', '=', '1e400', '1e-400', '5e-324', '1d3')),
+        *((text, text) for text in ('0x', '1e', '--5', '.', '+', '.e5', '٣', '5 6', '0x1G')),
+        *((str(2**63 - 1), 2**63 - 1), (str(-(2**63)), -(2**63)), (str(2**63), float(2**63))),
+        ('9' * 5000, '9' * 5000),
+        *(('"5"', '5'), ("'yes'", 'yes'), ('!!str 5', '5'), ('!!int "5"', '5'), ('!!float 5', 5)),
+    ],
+)
+def test_a_value_is_what_rcl_reads(text, value):
+    """Held against rcl itself by test/ros/control/test_parameters_as_rcl_reads_them.py."""
+    (found,) = content_of(f'p: {text}').values()
+    assert (type(found), repr(found)) == (type(value), repr(value))
+    assert content_of(text_of({'p': value})) == {'p': value}
+
+
+def test_no_number_is_one_too():
+    assert all(math.isnan(scalar_of(text)) for text in ('.nan', 'NaN', '.NAN', '-nan', 'nan(x)'))
+
+
+def test_keys_are_texts():
+    assert content_of('{1: a, yes: b, 5e2: c, "<<": d}') == {
+        '1': 'a', 'yes': 'b', '5e2': 'c', '<<': 'd'
+    }  # fmt: skip
 
 
 def test_bytes_that_are_not_text_are_reported(tmp_path):

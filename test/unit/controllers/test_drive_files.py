@@ -154,11 +154,12 @@ def test_what_cannot_be_used_is_named_with_its_line(read, text, message):
         read(text)
 
 
-def test_anchors_and_merges_are_read(read):
-    text = f'{MANAGER}base: &base\n  ros__parameters: &p\n{WHEELS}'
-    (drive,) = read(f'{text}drive:\n  ros__parameters:\n    <<: *p\n    base_frame_id: base\n')
-    assert (drive.radius, drive.base_frame) == (0.1, 'base')
-    assert drive.location_of('wheel_radius') >= drive.location
+def test_what_rcl_does_not_read_is_named_with_its_line(read):
+    text = f'{MANAGER}base: &base\n  ros__parameters: &p\n{WHEELS}drive:\n  ros__parameters:'
+    with pytest.raises(ParameterError, match=r'controllers.yaml:12:20: ROS reads no aliases'):
+        read(f'{text} *p\n')
+    with pytest.raises(ParameterError, match=r'controllers.yaml:13:5: ROS merges no tables'):
+        read(f'{text}\n    <<: {{a: 1}}\n    base_frame_id: base\n')
 
 
 def test_files_are_read_one_over_the_other(tmp_path):
