@@ -102,6 +102,8 @@ setup(
             'calibrate = amr_description.entry:nodes.calibrate.main',
             'check_navigation = amr_description.entry:nodes.check_navigation.main',
             'create = amr_description.entry:nodes.create.main',
+            'demo_listener = amr_description.entry:nodes.demo_listener.main',
+            'demo_talker = amr_description.entry:nodes.demo_talker.main',
             'description_watcher = amr_description.entry:nodes.description_watcher.main',
             'ekf_node = amr_description.entry:nodes.ekf_node.main',
             'hardware_spawner = amr_description.entry:nodes.hardware_spawner.main',

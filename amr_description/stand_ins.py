@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Packages of ROS that are not installed: executables of ours in their place, or what would do."""
 
-# (package, executable) -> our executable that replaces it if the package is not installed, with
-# the arguments that make it compatible; they come last, so arguments of the user win.
 STAND_INS = {
     ('controller_manager', 'hardware_spawner'): 'hardware_spawner',
     ('controller_manager', 'ros2_control_node'): 'ros2_control_node',
     ('controller_manager', 'spawner'): 'spawner',
+    ('controller_manager', 'spawner.py'): 'spawner',  # as Foxy has it
     ('controller_manager', 'unspawner'): 'unspawner',
-    ('demo_nodes_py', 'listener'): 'listener --ros-args -r __node:=listener -r topic:=chatter',
-    ('demo_nodes_py', 'talker'): 'talker --ros-args -r __node:=talker -r topic:=chatter',
+    ('controller_manager', 'unspawner.py'): 'unspawner',
+    ('demo_nodes_py', 'listener'): 'demo_listener',
+    ('demo_nodes_py', 'talker'): 'demo_talker',
     ('joint_state_publisher', 'joint_state_publisher'): 'joint_state_publisher',
     ('nav2_map_server', 'map_saver_cli'): 'map_saver_cli',
     ('nav2_map_server', 'map_server'): 'map_server',
@@ -24,9 +24,11 @@ STAND_INS = {
     ('tf2_ros', 'tf2_echo'): 'tf2_echo',
     ('tf2_ros', 'tf2_monitor'): 'tf2_monitor',
     ('tf2_tools', 'view_frames'): 'view_frames',
+    ('tf2_tools', 'view_frames.py'): 'view_frames',
     ('twist_mux', 'twist_mux'): 'twist_mux',
     ('xacro', 'xacro'): 'xacro',
 }
+"""(package, executable) -> our executable that replaces it where the package is not installed."""
 
 _PAGE = (
     "what it shows is on the page of 'ros2 launch amr_description display', or, beside a running "
@@ -44,22 +46,57 @@ _NAVIGATION = (
     "'ros2 launch --discovery subnet amr_description navigation' has all that it asks for "
     '(docs/navigation.md)'
 )
+_NO_BRIDGE = (
+    'no bridge is needed: the simulator publishes /clock, joint states, odometry and TF as '
+    "ROS topics, and hears commands from them; see 'ros2 topic list'"
+)
 _TELEOP = (
     "'ros2 run teleop_twist_keyboard teleop_twist_keyboard', or the page of the viewer, drives"
 )
+_GAMEPAD = (
+    "a gamepad at the page of 'ros2 run amr_description viewer' drives, or "
+    "'ros2 run teleop_twist_keyboard teleop_twist_keyboard'"
+)
+_SENSOR = (
+    'it is the driver of a device; the simulator measures by the <gazebo><sensor> of the robot '
+    'description, and publishes that (docs/sensors.md)'
+)
 
 INSTEAD_OF_PACKAGES = {
+    'camera_ros': _SENSOR,
     'gazebo_ros': _SIMULATOR,
     'joint_state_publisher_gui': (
         "its sliders are on the page of 'ros2 launch amr_description display'"
     ),
+    'joy': _GAMEPAD,
+    'joy_linux': _GAMEPAD,
+    'joy_teleop': _GAMEPAD,
+    'ldlidar_stl_ros2': _SENSOR,
     'nav2_bringup': _NAVIGATION,
     'navigation2': _NAVIGATION,
-    'ros_gz_bridge': (
-        'no bridge is needed: the simulator publishes /clock, joint states, odometry and TF as '
-        "ROS topics, and hears commands from them; see 'ros2 topic list'"
-    ),
+    **dict.fromkeys(
+        (
+            'nav2_amcl',
+            'nav2_behaviors',
+            'nav2_bt_navigator',
+            'nav2_collision_monitor',
+            'nav2_controller',
+            'nav2_costmap_2d',
+            'nav2_lifecycle_manager',
+            'nav2_planner',
+            'nav2_route',
+            'nav2_smoother',
+            'nav2_velocity_smoother',
+            'nav2_waypoint_follower',
+            'opennav_docking',
+        ),
+        _NAVIGATION,
+    ),  # fmt: skip
+    'realsense2_camera': _SENSOR,
+    'ros_gz_bridge': _NO_BRIDGE,
+    'ros_gz_image': _NO_BRIDGE,
     'ros_gz_sim': _SIMULATOR,
+    'rplidar_ros': _SENSOR,
     'rqt': _GRAPH,
     'rqt_console': "'ros2 topic echo /rosout' prints the log of all nodes",
     'rqt_graph': _GRAPH,
@@ -68,5 +105,15 @@ INSTEAD_OF_PACKAGES = {
     'rqt_tf_tree': "'ros2 run tf2_tools view_frames' draws it",
     'rviz2': _PAGE,
     'slam_toolbox': _NAVIGATION,
+    'sllidar_ros2': _SENSOR,
+    'teleop_twist_joy': _GAMEPAD,
+    'turtlesim': (
+        "the robot of 'ros2 launch amr_description simulation' does what its turtle does: it is "
+        'driven by velocities, and seen on the page'
+    ),
+    'urg_node': _SENSOR,
+    'usb_cam': _SENSOR,
+    'v4l2_camera': _SENSOR,
+    'velodyne_driver': _SENSOR,
 }
 """By package: what to do where it is not installed."""

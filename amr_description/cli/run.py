@@ -50,8 +50,8 @@ def main(args: Namespace) -> int:
     from amr_description.bringup.environment import child_environment
     from amr_description.cli.child_process import run_to_end
 
-    executable, words = _find(args.package_name, args.executable_name)
-    command = [*_prefix(args.prefix), str(executable), *args.argv, *words]
+    executable = _find(args.package_name, args.executable_name)
+    command = [*_prefix(args.prefix), str(executable), *args.argv]
     environment = child_environment(executable, os.environ)
     if 'PYTHONUNBUFFERED' not in os.environ:  # is for pipes; this child may have a terminal
         environment.pop('PYTHONUNBUFFERED', None)
@@ -65,8 +65,8 @@ def main(args: Namespace) -> int:
     return code
 
 
-def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
-    """Return the path of an executable, and what to append to its words. Raises AmrError."""
+def _find(package: str, name: str) -> Path:
+    """Return the path of an executable, or of what stands in for it. Raises AmrError."""
     from amr_description.ament_index import executables_of, is_own, overlay, packages
     from amr_description.text import did_you_mean
 
@@ -85,8 +85,8 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
         if package == _OURS and (first := overlay()) and is_own(found):
             lacks = f"package '{package}' of {first} has no '{name}'"
             print(f'[ros2run]: {lacks}: running {found}', file=sys.stderr)
-        return found, ()
-    stand_in, *words = STAND_INS[package, name].split()
+        return found
+    stand_in = STAND_INS[package, name]
     ours = executables_of(_OURS)
     if stand_in not in {path.name for path in ours}:
         raise AmrError(f"Package '{package}' not found, and {_OURS} has no '{stand_in}' yet")
@@ -94,7 +94,7 @@ def _find(package: str, name: str) -> tuple[Path, Sequence[str]]:
         f"[ros2run]: package '{package}' is not installed: running '{stand_in}' of {_OURS}",
         file=sys.stderr,
     )
-    return _only_one(ours, _OURS, stand_in), words
+    return _only_one(ours, _OURS, stand_in)
 
 
 def _only_one(executables: Sequence[Path], package: str, name: str) -> Path:

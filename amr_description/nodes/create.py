@@ -51,6 +51,12 @@ def parser() -> argparse.ArgumentParser:
     options.add_argument(
         '-allow_renaming', '--allow_renaming', nargs='?', const=True, default=False, type=_bool
     )
+    options.add_argument(
+        '-robot_namespace',
+        '--robot_namespace',
+        default='',
+        help='namespace of the robot, as with spawn_entity.py; default: that of this node',
+    )
     for axis in 'xyz':
         options.add_argument(f'-{axis}', type=float, default=0.0, metavar='M')
     for axis, name in zip('RPY', ('roll', 'pitch', 'yaw'), strict=True):
@@ -85,7 +91,7 @@ def create(args: list[str] | None) -> int:
             request = SpawnEntity.Request(
                 name=options.name,
                 allow_renaming=options.allow_renaming,
-                entity_namespace=node.get_namespace().removeprefix('/'),
+                entity_namespace=(options.robot_namespace or node.get_namespace()).strip('/'),
                 uri=options.file or '',
                 resource_string=fixed_to_world(text) if options.fixed else text,
             )
