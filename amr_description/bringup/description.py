@@ -229,7 +229,7 @@ class Stack(Member):
         validation.require('Stack(%s)', self.nodes, _MEMBERS)
         validation.require_fields('Stack(…', self, _STACK_FIELDS)
         nodes = list(nodes_of(self.nodes))
-        if not nodes:
+        if not nodes and not self.notes and not self.event_handlers:
             raise BringupError('a stack needs at least one node')
         if len(set(nodes)) < len(nodes):
             twice = next(n for n in nodes if nodes.count(n) > 1)

@@ -256,6 +256,7 @@ class Scheduler:
         while not self.over:
             expired = self._timeouts.expired(self.waits(), self._state)
             if expired is None:
+                self.over = self._is_idle()  # the last handler of a stack may need no process
                 return
             if expired.node is None or expired.node.required:
                 self.failure, self.over = expired, True

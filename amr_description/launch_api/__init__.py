@@ -18,6 +18,9 @@ read, its actions are visited in order, and each is translated into what a stack
 ``processes.py``          ExecuteProcess, Node
 ``ros_actions.py``        PushRosNamespace, SetParameter, SetRemap …
 ``text_syntax.py``        ``$(var …)`` and the like
+``lifecycle.py``          LifecycleNode, ChangeState, OnStateTransition
+``composition.py``        components of C++, which are values until one is reached
+``rewriting.py``          RewrittenYaml and the others of nav2_common
 ``parameters.py``         ParameterValue, ParameterFile; parameters as nodes get them
 ``events.py``             OnProcessExit and the other event handlers; Shutdown
 ``including.py``          IncludeLaunchDescription and its sources

@@ -9,6 +9,7 @@ from typing import Any
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.descriptions import Action, Entities, LaunchDescriptionEntity
 from amr_description.launch_api.events import Handler, Shutdown as ShutdownEvent
+from amr_description.launch_api.lifecycle import ChangeState
 from amr_description.launch_api.locations import refusal
 from amr_description.launch_api.substitutions import (
     is_a_substitution,
@@ -276,14 +277,14 @@ class RegisterEventHandler(Action):
 
 
 class EmitEvent(Action):
-    """An event; here ``Shutdown``."""
+    """An event; here ``Shutdown`` and ``ChangeState``."""
 
     def __init__(self, *, event: object, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        if not isinstance(event, ShutdownEvent):
+        if not isinstance(event, ShutdownEvent | ChangeState):
             raise refusal(
                 f'EmitEvent(event={type(event).__name__}(…)) is not understood here; understood '
-                'is Shutdown'
+                'are Shutdown and ChangeState'
             )
         self.event = event
 

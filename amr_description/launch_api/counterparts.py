@@ -20,12 +20,8 @@ from amr_description.launch_api.locations import refusal
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES, STAND_INS
 
 _FOLDER = 'not_installed'
-_NO_BRIDGE = INSTEAD_OF_PACKAGES['ros_gz_bridge']
-_LEFT_OUT = {
-    ('ros_gz_bridge', 'parameter_bridge'): _NO_BRIDGE,
-    ('ros_gz_bridge', 'bridge_node'): _NO_BRIDGE,
-    ('ros_gz_image', 'image_bridge'): _NO_BRIDGE,
-}
+_NEEDED = ('gazebo_ros', 'ros_gz_sim')
+"""Of these packages what is not known is refused: without the simulator there is no robot."""
 _ON_THE_PAGE = {
     ('gazebo_ros', 'gzclient'): '',
     ('joint_state_publisher_gui', 'joint_state_publisher_gui'): 'joint_state_publisher',
@@ -34,7 +30,7 @@ _ON_THE_PAGE = {
 """(package, executable) -> our executable beside the page; '': the page alone."""
 _KNOWN = {
     *INSTEAD_OF_PACKAGES,
-    *(package for package, _ in (*STAND_INS, *_LEFT_OUT, *_ON_THE_PAGE)),
+    *(package for package, _ in (*STAND_INS, *_ON_THE_PAGE)),
     'gz_ros2_control',
     'rviz_common',
 }
@@ -42,8 +38,13 @@ _OPTIONS_OF_SPAWN_ENTITY = {
     '-entity': '-name',
     '-topic': '-topic',
     '-file': '-file',
+    '-robot_namespace': '-robot_namespace',
     **{f'-{axis}': f'-{axis}' for axis in 'xyzRPY'},
 }
+_HARMLESS = ('-b', '-package_to_model', '-spawn_service_timeout', '-timeout', '-unpause')
+"""Without these the robot is spawned all the same."""
+_FLAGS = ('-b', '-h', '-package_to_model', '-stdin', '-unpause')
+"""Options of spawn_entity.py without a value."""
 
 
 class PackageMissing(BringupError, PackageNotFoundError):  # noqa: N818 - as its base
@@ -60,8 +61,6 @@ class Counterpart:
 
     executable: str = ''
     """One of ours; '': none."""
-    words: Sequence[str] = ()
-    """Arguments that come last."""
     has_page: bool = False
     """Whether the page of the viewer takes its place."""
     why: str = ''
@@ -73,31 +72,37 @@ def counterpart_of(package: str, executable: str) -> Counterpart | None:
     pair = (package, executable)
     if is_installed(package):
         return None
-    if pair in _LEFT_OUT:
-        return Counterpart(why=_LEFT_OUT[pair])
     if pair in _ON_THE_PAGE:
         return Counterpart(_ON_THE_PAGE[pair], has_page=True)
     if pair == ('gazebo_ros', 'spawn_entity.py'):
         return Counterpart('create')
     if pair in STAND_INS:
-        ours, *words = STAND_INS[pair].split()
-        return Counterpart(ours, words)
+        return Counterpart(STAND_INS[pair])
+    if package in INSTEAD_OF_PACKAGES and package not in _NEEDED:
+        return Counterpart(why=INSTEAD_OF_PACKAGES[package])
     return None
 
 
-def arguments_as_ours(executable: str, arguments: Sequence[str]) -> list[str]:
-    """Return the arguments of an executable as our counterpart takes them."""
+def arguments_as_ours(executable: str, arguments: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Return the arguments of an executable as our counterpart takes them, and what it lacks."""
     if executable == 'create':
-        return ['-name' if word == '-entity' else word for word in arguments]
+        return ['-name' if word == '-entity' else word for word in arguments], []
     if executable != 'spawn_entity.py':
-        return list(arguments)
-    pairs = zip(arguments, arguments[1:], strict=False)
-    return [
-        word
-        for option, value in pairs
-        if option in _OPTIONS_OF_SPAWN_ENTITY
-        for word in (_OPTIONS_OF_SPAWN_ENTITY[option], value)
-    ]
+        return list(arguments), []
+    taken: list[str] = []
+    lacking: list[str] = []
+    rest = [*arguments]
+    while rest:
+        option = rest.pop(0)
+        if option == '--ros-args':
+            return [*taken, option, *rest], lacking
+        words = [] if option in _FLAGS else rest[:1]
+        del rest[: len(words)]
+        if option in _OPTIONS_OF_SPAWN_ENTITY:
+            taken += [_OPTIONS_OF_SPAWN_ENTITY[option], *words]
+        elif option not in _HARMLESS and (option, words) != ('-reference_frame', ['world']):
+            lacking.append(' '.join([option, *words]))
+    return taken, lacking
 
 
 def require_package(package: str) -> None:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 import shlex
+from typing import Any
 
 from amr_description.ament_index import own_share
 from amr_description.launch_api.actions import LogInfo, OpaqueFunction, Shutdown
@@ -21,13 +22,20 @@ from amr_description.launch_api.descriptions import (
     LaunchDescription,
 )
 from amr_description.launch_api.processes import Node
+from amr_description.launch_api.substitutions import SomeSubstitutions, text_of
 from amr_description.text import truth
 
 _OURS = 'amr_description'
+_NO_BRIDGE = 'no bridge is needed here: its topics are of ROS'
 _WITH_A_VALUE = (
     '-v', '--verbose', '-z', '--iterations', '--physics-engine', '--render-engine', '--seed',
     '--render-engine-server', '--render-engine-gui', '--gui-config', '--record-path',
     '--network-role',
+)  # fmt: skip
+_WITH_A_VALUE_IN_CLASSIC = (
+    '-e', '--physics', '-p', '--play', '-g', '--gui-plugin', '--gui-client-plugin', '-s',
+    '--server-plugin', '-o', '--profile', '--iters', '--seed', '--record_path',
+    '--record_encoding', '--record_period', '--record_filter',
 )  # fmt: skip
 
 
@@ -75,6 +83,25 @@ def world_of(words: Sequence[str]) -> World:
     )
 
 
+def classic_world_of(program: str, words: Sequence[str]) -> World:
+    """Return what the words after ``gazebo``, ``gzserver`` or ``gzclient`` of Classic say."""
+    names, flags, rest = [], set(), [*words]
+    while rest:
+        word = rest.pop(0)
+        if not word.startswith('-'):
+            names.append(word)
+        elif word in _WITH_A_VALUE_IN_CLASSIC:
+            del rest[:1]
+        else:
+            flags.add(word)
+    return World(
+        name=names[0] if names else '',
+        is_running=flags.isdisjoint({'-u', '--pause'}),
+        has_window=program != 'gzserver',
+        has_server=program != 'gzclient',
+    )
+
+
 def simulator(world: World) -> list[Action]:
     """Return the actions that take the place of Gazebo."""
     actions: list[Action] = []
@@ -97,6 +124,30 @@ def simulator(world: World) -> list[Action]:
             )
         )
     return [*actions, Page()] if world.has_window else actions
+
+
+class GzServer(Action):
+    """The world alone, as ros_gz_sim.actions has it."""
+
+    def __init__(
+        self, *, world_sdf_file: SomeSubstitutions = '', condition: Any = None, **_others: Any
+    ) -> None:
+        super().__init__(condition=condition)
+        self.world_sdf_file = world_sdf_file
+
+    def execute(self, context: LaunchContext) -> list[Action]:
+        name = text_of(context, self.world_sdf_file)
+        return simulator(World(name, is_running=True, has_window=False))
+
+
+class RosGzBridge(Action):
+    """A bridge, which is not needed."""
+
+    def __init__(self, *, condition: Any = None, **_others: Any) -> None:
+        super().__init__(condition=condition)
+
+    def execute(self, _context: LaunchContext) -> list[Action]:
+        return [LogInfo(msg=_NO_BRIDGE)]
 
 
 def _declared(**defaults: str) -> list[DeclareLaunchArgument]:
@@ -170,7 +221,7 @@ def _page() -> LaunchDescription:
 
 
 def _nothing() -> LaunchDescription:
-    return LaunchDescription([LogInfo(msg='no bridge is needed here: its topics are of ROS')])
+    return LaunchDescription([LogInfo(msg=_NO_BRIDGE)])
 
 
 FILES: Mapping[str, Mapping[str, Callable[[], LaunchDescription]]] = {

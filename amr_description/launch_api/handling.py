@@ -11,7 +11,7 @@ known, and checked, before anything starts.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from amr_description.bringup import handlers
@@ -20,6 +20,7 @@ from amr_description.bringup.conditions import (
     any_of,
     Condition,
     exited,
+    exited_cleanly,
     NodeRef,
     StackState,
     started,
@@ -44,6 +45,7 @@ from amr_description.launch_api.events import (
     ProcessStarted,
     Shutdown,
 )
+from amr_description.launch_api.lifecycle import LifecycleTransition, OnStateTransition
 from amr_description.launch_api.locations import at, refusal
 from amr_description.launch_api.processes import ExecuteProcess
 from amr_description.launch_api.substitutions import perform_substitutions
@@ -57,6 +59,13 @@ class Started:
     """None: no process is started for it."""
     when: Condition | None
     """When; None: at once."""
+    transitions: list[tuple[str, NodeRef]] = field(default_factory=list)
+    """The states that it is asked to come to, and what asks it."""
+
+    def comes_to(self, state: str | None) -> list[Condition]:
+        """Return when it has come to a state, None: any."""
+        steps = [step for goal, step in self.transitions if state in (goal, None)]
+        return [exited_cleanly(step) for step in steps]
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +166,11 @@ class Handling:
         return known or [each for each in self._waiting if each not in of_actions]
 
     def _is_known(self, handler: Handler) -> bool:
-        return handler.target in self._translation.started
+        target = handler.target
+        made = self._translation.started.get(target) if isinstance(target, Action) else None
+        if made is not None and isinstance(handler, OnStateTransition):
+            return bool(made.comes_to(handler.goal_state))
+        return made is not None
 
     def _with_place(self, registered: Registered) -> None:
         try:
@@ -262,6 +275,9 @@ _NEVER = all_of()
 
 def _condition(handler: Handler, action: Action, made: Started) -> Condition | None:
     """Return when the event of a handler comes; None: at once; ``_NEVER``: never."""
+    if isinstance(handler, OnStateTransition):
+        reached = made.comes_to(handler.goal_state)
+        return any_of(*reached) if len(reached) > 1 else reached[0] if reached else _NEVER
     if isinstance(action, TimerAction):
         return made.when if isinstance(handler, OnExecutionComplete) else _NEVER
     if made.node is None:  # its counterpart is that nothing is needed
@@ -289,7 +305,7 @@ def _parts(result: object, context: LaunchContext) -> Iterator[handlers.Log | ha
         for each in result:
             yield from _parts(each, context)
         return
-    if not isinstance(result, Action) or isinstance(result, ExecuteProcess | TimerAction):
+    if not isinstance(result, Action) or _starts_something(result):
         raise refusal(
             f'a function of an event handler has returned {type(result).__name__}, which cannot '
             'be started here: give the handler a list of actions in place of the function',
@@ -299,16 +315,23 @@ def _parts(result: object, context: LaunchContext) -> Iterator[handlers.Log | ha
         return
     if isinstance(result, Log):
         yield handlers.Log(perform_substitutions(context, result.msg))
-    elif isinstance(result, EmitEvent):
+    elif isinstance(result, EmitEvent) and isinstance(result.event, Shutdown):
         yield handlers.Shutdown(result.event.text(context))
     else:
         yield from _parts(list(result.execute(context) or ()), context)
 
 
+def _starts_something(action: Action) -> bool:
+    """Return whether a process is needed for it, now or later."""
+    if isinstance(action, EmitEvent):
+        return not isinstance(action.event, Shutdown)
+    return isinstance(action, ExecuteProcess | TimerAction | LifecycleTransition)
+
+
 def _require_lines_only(handler: Handler) -> None:
     """Raise BringupError if what is to be done at the end starts a process."""
     for each in handler.entities:
-        if isinstance(each, ExecuteProcess | TimerAction):
+        if isinstance(each, Action) and _starts_something(each):
             raise refusal(
                 f'OnShutdown cannot start {type(each).__name__}: all is stopped then',
                 handler.where,

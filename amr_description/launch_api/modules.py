@@ -23,15 +23,19 @@ import ament_index_python.packages
 
 from amr_description.launch_api import (
     actions,
+    composition,
     conditions,
     context,
     counterparts,
     descriptions,
     events,
+    gazebo_files,
     including,
+    lifecycle,
     logic,
     parameters,
     processes,
+    rewriting,
     ros_actions,
     substitutions,
 )
@@ -133,7 +137,10 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
         'OnProcessStart',
         'OnShutdown',
     ),
-    'launch.events': {'Shutdown': events.Shutdown},
+    'launch.events': {
+        'Shutdown': events.Shutdown,
+        'matches_action': lifecycle.matches_action,
+    },
     'launch.events.process': _of(events, 'ProcessExited', 'ProcessIO', 'ProcessStarted'),
     'launch.launch_context': _CONTEXT,
     'launch.launch_description': _LAUNCH_DESCRIPTION,
@@ -181,6 +188,10 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
     'launch_ros': {},
     'launch_ros.actions': {
         'Node': processes.Node,
+        'ComposableNodeContainer': composition.ComposableNodeContainer,
+        'LifecycleNode': lifecycle.LifecycleNode,
+        'LifecycleTransition': lifecycle.LifecycleTransition,
+        'LoadComposableNodes': composition.LoadComposableNodes,
         'PushRosNamespace': ros_actions.PushROSNamespace,
         **_of(
             ros_actions,
@@ -193,7 +204,10 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
         ),
     },
     'launch_ros.actions.node': {'Node': processes.Node},
-    'launch_ros.descriptions': _PARAMETERS,
+    'launch_ros.descriptions': {**_PARAMETERS, 'ComposableNode': composition.ComposableNode},
+    'launch_ros.event_handlers': _of(lifecycle, 'OnStateTransition'),
+    'launch_ros.events': {},
+    'launch_ros.events.lifecycle': _of(lifecycle, 'ChangeState'),
     'launch_ros.parameter_descriptions': _PARAMETERS,
     'launch_ros.substitutions': _FIND,
     'launch_xml': {},
@@ -204,6 +218,12 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
     'launch_yaml.launch_description_sources': {
         'YAMLLaunchDescriptionSource': including.LaunchDescriptionSource
     },
+    'nav2_common': {},
+    'nav2_common.launch': _of(rewriting, 'HasNodeParams', 'ReplaceString', 'RewrittenYaml'),
+    'ros_gz_bridge': {},
+    'ros_gz_bridge.actions': _of(gazebo_files, 'RosGzBridge'),
+    'ros_gz_sim': {},
+    'ros_gz_sim.actions': _of(gazebo_files, 'GzServer'),
 }
 """Module -> its names."""
 

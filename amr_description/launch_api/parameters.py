@@ -17,6 +17,7 @@ import yaml
 from amr_description.bringup.description import ParameterText, ParameterValue as Plain
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.locations import Located, refusal
+from amr_description.launch_api.rewriting import WrittenFile
 from amr_description.launch_api.substitutions import (
     is_a_substitution,
     normalize_to_list_of_substitutions,
@@ -142,6 +143,8 @@ def evaluated(context: LaunchContext, parameters: Any, where: str) -> list[Entry
             entries.append({name: each.evaluate(context, name)})
         elif isinstance(each, Mapping):
             entries.append(_table(context, each, where))
+        elif isinstance(each, WrittenFile):
+            entries.append(ParameterText(each.written(context)))
         elif isinstance(each, PathLike):
             entries.append(Path(each))
         else:

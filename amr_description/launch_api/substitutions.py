@@ -167,15 +167,16 @@ class PathJoinSubstitution(Substitution):
     def perform(self, context: LaunchContext) -> str:
         return os.path.join(*(perform_substitutions(context, each) for each in self.substitutions))
 
+    def __truediv__(self, other: SomeSubstitutions) -> 'PathJoinSubstitution':
+        """Return the path with one part more: ``PathJoinSubstitution(['a', 'b']) / 'c'``."""
+        return PathJoinSubstitution([*self.substitutions, other])
+
 
 class PathSubstitution(PathJoinSubstitution):
-    """``PathSubstitution('a') / 'b'``."""
+    """``PathSubstitution('a') / 'b' / 'c'``."""
 
     def __init__(self, path: SomeSubstitutions) -> None:
         super().__init__([path])
-
-    def __truediv__(self, other: SomeSubstitutions) -> 'PathJoinSubstitution':
-        return PathJoinSubstitution([*self.substitutions, other])
 
 
 class StringJoinSubstitution(Substitution):

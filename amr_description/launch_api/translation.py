@@ -36,6 +36,7 @@ from amr_description.bringup.conditions import (
     walk,
 )
 from amr_description.bringup.description import Node as StackNode, Respawn, Stack
+from amr_description.bringup.graph_conditions import service
 from amr_description.bringup.handlers import EventHandler, Level
 from amr_description.errors import AmrError, BringupError
 from amr_description.launch_api.actions import (
@@ -44,6 +45,7 @@ from amr_description.launch_api.actions import (
     RegisterEventHandler,
     TimerAction,
 )
+from amr_description.launch_api.composition import LoadComposableNodes
 from amr_description.launch_api.context import LaunchContext, NAMESPACE, PARAMETERS, REMAPPINGS
 from amr_description.launch_api.counterparts import (
     arguments_as_ours,
@@ -52,9 +54,22 @@ from amr_description.launch_api.counterparts import (
     require_package,
 )
 from amr_description.launch_api.descriptions import Action, LaunchDescription
-from amr_description.launch_api.events import OnProcessExit
-from amr_description.launch_api.gazebo_files import Page, simulator, world_of
+from amr_description.launch_api.events import OnProcessExit, Shutdown as ShutdownEvent
+from amr_description.launch_api.gazebo_files import (
+    classic_world_of,
+    Page,
+    simulator,
+    world_of,
+)
 from amr_description.launch_api.handling import Handling, Listeners, Registered, Started
+from amr_description.launch_api.lifecycle import (
+    ACTIVATE,
+    ChangeState,
+    CONFIGURE,
+    GOALS,
+    LifecycleNode,
+    LifecycleTransition,
+)
 from amr_description.launch_api.locations import at, refusal
 from amr_description.launch_api.parameters import evaluated
 from amr_description.launch_api.processes import ExecuteProcess, Node
@@ -64,6 +79,7 @@ from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 
 _STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner', 'ros2')
 """What ends by itself soon, and is waited for."""
+_STEP: Mapping[str, Any] = {'required': False, 'on_exit': 'continue', 'timeout': math.inf}
 _READS_KEYS = 'teleop_twist_keyboard'
 _SOON = 10.0
 """s; what starts later is not waited for until all is ready."""
@@ -115,6 +131,7 @@ class Translation:
         """What has become of each action that starts a process or a timer."""
         self.when: Condition | None = None
         """When the actions that are visited now are to be done; None: at once."""
+        self._page_when: Condition | None = None
         self._replaced = _Replaced()
 
     def visit(self, entities: Iterable[object] | None) -> None:
@@ -146,18 +163,26 @@ class Translation:
 
     def stack(self) -> Stack:
         """Return all of it. Raises BringupError."""
-        if not self.nodes and not self._replaced.pages:
-            raise BringupError('nothing would be started: the launch file starts no process')
+        notes = [*self.notes, *self._replaced.notes()]
+        if not self.nodes and not self._replaced.pages and not self.event_handlers:
+            notes.append(('INFO', 'nothing is started: the launch file starts no process'))
         ready = self._readiness()
-        page = [StackNode('viewer', required=False, start_when=ready, timeout=math.inf)]
+        # At once, as the window in whose place it is: it shows what goes wrong with the rest.
+        page = StackNode('viewer', required=False, start_when=self._page_when, timeout=math.inf)
         return Stack(
-            [*self.nodes, *(page if self._replaced.pages else ())],
+            [*self.nodes, *([page] if self._replaced.pages else ())],
             ready_when=ready,
             timeout=math.inf,
             event_handlers=self.event_handlers,
             on_shutdown=self.handling.on_shutdown(),
-            notes=[*self.notes, *self._replaced.notes()],
+            notes=notes,
         )
+
+    def _add_page(self, name: str) -> None:
+        """Have the page in place of a window, which would open now."""
+        if not self._replaced.pages or self.when is None:
+            self._page_when = self.when
+        self._replaced.pages.append(name)
 
     def _readiness(self) -> Condition | None:
         """Return when all is up: all was started that will be soon, and all steps are over."""
@@ -186,9 +211,14 @@ class Translation:
             case Log():
                 self._log(entity)
             case EmitEvent():
-                self._shut_down(entity)
+                self._emit(entity)
+            case LifecycleTransition():
+                for name in entity.lifecycle_node_names:
+                    self._change_state(text_of(self.context, name), entity.transition_ids)
+            case LoadComposableNodes():
+                self._replaced.left_out |= entity.left_out(self.context)
             case Page():
-                self._replaced.pages.append('the window of Gazebo')
+                self._add_page('the window of Gazebo')
             case _:
                 before = dict(os.environ)
                 more = entity.execute(self.context)
@@ -211,11 +241,38 @@ class Translation:
             return
         self.event_handlers.append(EventHandler(self.when, lambda _: line, f"log '{text}'"))
 
-    def _shut_down(self, action: EmitEvent) -> None:
-        reason = action.event.text(self.context)
+    def _emit(self, action: EmitEvent) -> None:
+        event = action.event
+        if isinstance(event, ChangeState):
+            matches = event.lifecycle_node_matcher
+            for target, made in self.started.items():
+                if isinstance(target, LifecycleNode) and made.node and matches(target):
+                    self._change_state(self._full_name(target), [event.transition_id], made)
+            return
+        reason = event.text(self.context)
         stop = handlers.Shutdown(reason)
         when = after(0.0) if self.when is None else self.when
         self.event_handlers.append(EventHandler(when, lambda _: stop, f"shut down: '{reason}'"))
+
+    def _change_state(
+        self, name: str, transitions: Iterable[int], of: Started | None = None
+    ) -> None:
+        """Ask a node for transitions, one after the other, once it can be asked."""
+        begin = service(f'{name}/change_state')
+        when = begin if self.when is None else all_of(self.when, begin)
+        for transition in transitions:
+            command = ['ros2', 'lifecycle', 'set', name, str(transition)]
+            step = StackNode('ros2', command=command, start_when=when, **_STEP)
+            self.nodes.append(step)
+            if of is not None:
+                of.transitions.append((GOALS[transition], step))
+            when = exited_cleanly(step)
+
+    def _full_name(self, action: Node) -> str:
+        context = self.context
+        outer = str(context.launch_configurations.get(NAMESPACE, ''))
+        own = '' if action.namespace is None else text_of(context, action.namespace)
+        return f'{joined_namespace(outer, own)}/{text_of(context, action.name).lstrip("/")}'
 
     def _start(self, action: ExecuteProcess) -> None:
         if action in self.started:
@@ -241,7 +298,10 @@ class Translation:
             return
         arguments = [text_of(context, each) for each in action.arguments]
         if other is not None:
-            arguments = [*arguments_as_ours(executable, arguments), *other.words]
+            arguments, lacking = arguments_as_ours(executable, arguments)
+            for words in lacking:
+                text = f"'{words}' of {package} {executable} is left out: it is not known here"
+                self.notes.append(('WARNING', text))
             package, executable = OWN_PACKAGE, other.executable
         if action.ros_arguments:
             arguments += ['--ros-args', *(text_of(context, each) for each in action.ros_arguments)]
@@ -268,13 +328,18 @@ class Translation:
             **common,
         )
         self._add(action, node)
+        if isinstance(action, LifecycleNode) and action.truth(
+            context, action.autostart, 'autostart'
+        ):
+            name, made = self._full_name(action), self.started[action]
+            self._change_state(name, (CONFIGURE, ACTIVATE), made)
 
     def _note_counterpart(self, package: str, executable: str, other: Counterpart) -> None:
         name = executable if package == executable else f'{package} {executable}'
         if other.why:
             self._replaced.left_out[name] = other.why
         elif other.has_page:
-            self._replaced.pages.append(name)
+            self._add_page(name)
         else:
             ours = '' if executable == other.executable else f' ({other.executable})'
             self._replaced.names.append(f'{name}{ours}')
@@ -308,7 +373,7 @@ class Translation:
                 raise refusal(f"there is no command '{name}': {INSTEAD_OF_PACKAGES['ros_gz_sim']}")
             world = world_of(rest[1:])
         else:
-            world = world_of(['-r', *(['-g'] if name == 'gzclient' else []), *rest])
+            world = classic_world_of(name, rest)
         before = len(self.nodes)
         self.visit(simulator(world))
         made = self.nodes[before:]
@@ -363,7 +428,11 @@ def _is_shutdown(on_exit: object) -> bool:
     """Return whether it is ``Shutdown()``, alone or in a list."""
     if isinstance(on_exit, list | tuple) and len(on_exit) == 1:
         return _is_shutdown(on_exit[0])
-    return isinstance(on_exit, EmitEvent) and on_exit.condition is None
+    return (
+        isinstance(on_exit, EmitEvent)
+        and isinstance(on_exit.event, ShutdownEvent)
+        and on_exit.condition is None
+    )
 
 
 def _is_step(node: NodeRef) -> bool:

@@ -302,6 +302,26 @@ def test_ready_is_what_starts_soon(launch):
     assert scheduler.ready
 
 
+def test_a_file_that_starts_no_process_says_its_lines_and_is_over(launch):
+    stack = launch("LogInfo(msg='only a line'), LogInfo(msg=PathSubstitution('/a') / 'b' / 'c'),")
+    assert stack.nodes == []
+    assert [text for _, text in stack.notes] == [
+        'only a line',
+        '/a/b/c',
+        'nothing is started: the launch file starts no process',
+    ]
+    scheduler = Scheduler(stack)
+    scheduler.advance_to(0.0)
+    assert scheduler.over
+    later = launch("TimerAction(period=2.0, actions=[LogInfo(msg='later')]),")
+    scheduler = Scheduler(later)
+    scheduler.advance_to(1.0)
+    assert not scheduler.over
+    scheduler.advance_to(3.5)
+    assert [line.text for line in scheduler.lines] == ['later']
+    assert scheduler.over
+
+
 def test_functions_are_called_when_the_event_comes(launch):
     stack = launch("""
         a, b,
@@ -437,7 +457,6 @@ def test_opaque_functions_and_own_actions(launch):
         ("ExecuteProcess(cmd=['sh'], cwd='/nope_')", "cwd='/nope_': there is no such folder"),
         ("*[toy('a')] * 2", 'the same action stands twice; make a second one'),
         ('3', '3 is no action'),
-        ("LogInfo(msg='x')", 'nothing would be started: the launch file starts no process'),
         ("toy('a', name=LaunchConfiguration('x'))", "configuration 'x' does not exist"),
         ("TimerAction(period='soon', actions=[])", r"TimerAction\(period='soon'\): it takes 0 s"),
         ("EmitEvent(event=3)", r'EmitEvent\(event=int\(…\)\) is not understood here'),

@@ -33,9 +33,9 @@ def launch(tmp_path):
     ('text', 'said'),
     [
         (
-            f'from launch_ros.actions import LifecycleNode\n{BEGIN}return LifecycleNode()',
-            'my.launch.py:3: launch_ros.actions.LifecycleNode is not understood here; understood '
-            'are Node, PushRosNamespace, ',
+            f'from launch_ros.actions import SetRemaps\n{BEGIN}return SetRemaps()',
+            'my.launch.py:3: launch_ros.actions.SetRemaps is not understood here; did you mean '
+            r'SetRemap\?; understood are Node, ',
         ),
         (
             'from launch.actions import DeclareLaunchArgumnt as D\nD("x")',
@@ -43,11 +43,11 @@ def launch(tmp_path):
             'mean DeclareLaunchArgument',
         ),
         (
-            'from launch_ros.event_handlers import OnStateTransition as O\nclass X(O): pass',
-            'my.launch.py:2: launch_ros.event_handlers.OnStateTransition is not understood here',
+            'from launch_ros.event_handlers import OnStateTransitions as O\nclass X(O): pass',
+            'my.launch.py:2: launch_ros.event_handlers.OnStateTransitions is not understood here',
         ),
         ('import launch\nlaunch.frontend.Parser()', 'my.launch.py:2: launch.frontend.Parser is n'),
-        ('from nav2_common.launch import RewrittenYaml', "No module named 'nav2_common'.*line 1"),
+        ('from nav2_commons.launch import X', "No module named 'nav2_commons'.*line 1"),
         (
             'from ament_index_python.packages import get_package_share_directory as share\n\n'
             "share('nope')",
