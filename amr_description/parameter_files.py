@@ -40,6 +40,8 @@ EVERY_NODE = '/**'
 
 _SHAPE = 'a parameter file is written as  node_name: {ros__parameters: {name: value}}'
 _STRING = 'tag:yaml.org,2002:str'
+_BYTES = 'tag:yaml.org,2002:binary'
+"""A list of bytes, as ``ros2 param dump`` writes it."""
 _PLAIN = 'amr:plain'
 _TRUTH = {
     **dict.fromkeys(
@@ -169,13 +171,14 @@ class _Loader(yaml.SafeLoader):
                     None, None, "ROS merges no tables, as '<<:' does; write the values out",
                     node.start_mark,
                 )  # fmt: skip
-            is_text = is_key or node.style in ('"', "'") or self._is_string
-            node.tag = _STRING if is_text else _PLAIN
+            is_text = is_key or node.style in ('"', "'") or self._given_tag == _STRING
+            if self._given_tag != _BYTES:
+                node.tag = _STRING if is_text else _PLAIN
         return node
 
     def compose_scalar_node(self, anchor: Any) -> yaml.ScalarNode:
-        """Note whether it is said to be a string; other tags mean nothing to rcl."""
-        self._is_string = self.peek_event().tag == _STRING
+        """Note what it is said to be; other tags than these two mean nothing to rcl."""
+        self._given_tag = self.peek_event().tag
         return super().compose_scalar_node(anchor)
 
 

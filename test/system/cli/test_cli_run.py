@@ -167,19 +167,40 @@ def test_a_stand_in_is_named_once_and_steps_back_for_the_original(only_ours):
 
 
 def test_what_stands_in_for_others_of_a_package_is_told(only_ours):
-    result = ros2('run', 'tf2_tools', 'view_frames.py', AMENT_PREFIX_PATH=str(only_ours))
+    result = ros2('run', 'robot_localization', 'ukf_node', AMENT_PREFIX_PATH=str(only_ours))
     assert result.returncode == 1
-    assert result.stderr == "Package 'tf2_tools' not found; of it there are here: view_frames\n"
+    assert result.stderr == (
+        "Package 'robot_localization' not found; of it there are here: ekf_node\n"
+    )
 
 
-def test_a_stand_in_has_the_names_of_the_original_unless_told_otherwise(only_ours):
-    result = ros2(
-        *('run', 'demo_nodes_py', 'talker', '--ros-args', '-r', '__node:=mine'),
-        AMENT_PREFIX_PATH=str(only_ours),
-    )
-    assert result.stdout == (
-        'our talker --ros-args -r __node:=mine --ros-args -r __node:=talker -r topic:=chatter\n'
-    )
+@pytest.mark.parametrize(
+    ('package', 'name', 'ours'),
+    [
+        ('demo_nodes_py', 'talker', 'demo_talker'),
+        ('demo_nodes_py', 'listener', 'demo_listener'),
+        ('controller_manager', 'spawner.py', 'spawner'),
+        ('tf2_tools', 'view_frames.py', 'view_frames'),
+    ],
+)
+def test_stand_ins_by_other_names(package, name, ours):
+    assert STAND_INS[package, name] == ours
+    assert ours in {path.name for path in executables_of('amr_description')}
+
+
+@pytest.mark.parametrize(
+    ('executable', 'node', 'topic'),
+    [('talker', '/demo/mine', '/demo/news'), ('listener', '/demo/mine', '/demo/news')],
+)
+def test_a_demo_node_is_renamed_and_remapped_as_the_original(executable, node, topic):
+    rules = ('-r', '__ns:=/demo', '-r', '__node:=mine', '-r', 'chatter:=news')
+    with started('run', 'demo_nodes_py', executable, '--ros-args', *rules) as program:
+        if executable == 'talker':
+            program.expect('Publishing: "Hello World: 0"')
+        said = ros2('node', 'info', node).stdout
+        program.end(signal.SIGINT)
+    kind = 'Publishers' if executable == 'talker' else 'Subscribers'
+    assert f'{topic}: std_msgs/msg/String' in said.partition(kind)[2].partition('Service')[0]
 
 
 def test_every_program_of_ros2_control_has_a_stand_in():

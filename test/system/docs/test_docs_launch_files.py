@@ -31,9 +31,9 @@ def test_its_lines_do_what_it_says(folder):
         assert 'listener' not in printed
         assert '-r __ns:=/right' in shell.run('ros2 launch listener.launch.xml')
         shell.start('ros2 launch pair.launch.py side')
-        shell.see(r'demo_nodes_py talker, demo_nodes_py listener')
+        shell.see(r'demo_nodes_py talker \(demo_talker\), demo_nodes_py listener \(demo_listener\)')
         shell.see(r'\[launch.user\]: talks on the right')
-        shell.see(r'\[right.listener\]: I heard: "Hello World: \d+"')
+        shell.see(r'\[right.listener\]: I heard: \[Hello World: \d+\]')
         shell.interrupt()
 
 
@@ -41,6 +41,6 @@ def test_the_names_in_its_table_are_understood():
     table = PAGE.text.partition('## What is understood')[2].partition('Whatever else')[0]
     known = {name for names in UNDERSTOOD.values() for name in names}
     processes = UNDERSTOOD['launch.actions']['ExecuteProcess']
-    known |= set(inspect.signature(processes.__init__).parameters)
+    known |= {'autostart', *inspect.signature(processes.__init__).parameters, *UNDERSTOOD}
     named = {re.sub(r'\(.*', '', each) for each in re.findall(r'`([^`]+)`', table)}
     assert {'Node', 'IfCondition', 'ParameterFile'} <= named <= known
