@@ -15,9 +15,9 @@ from pathlib import PurePath
 import sys
 import time
 from types import CodeType, FrameType
-from typing import Any, Self
+from typing import Any, Self, TypeAlias
 
-type Event = tuple[int, Any]
+Event: TypeAlias = tuple[int, Any]
 """
 Clock reading (ns) at which a call begins, or its negative at which it ends; and the code or the
 function in C.

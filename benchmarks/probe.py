@@ -7,6 +7,7 @@ import copy
 from operator import itemgetter
 import sys
 import time
+from typing import TypeAlias
 
 import mujoco
 
@@ -28,7 +29,7 @@ _ROUND = 0.25
 """s of the batches of one kind in a row: watching makes the interpreter forget what it has
 specialised, and a pause lets the caches get cold."""
 
-type Batch = tuple[int, CallRecorder]
+Batch: TypeAlias = tuple[int, CallRecorder]
 """Wall time, ns, and the calls."""
 
 

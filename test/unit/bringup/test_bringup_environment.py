@@ -18,6 +18,7 @@ from amr_description.bringup.environment import (
 OURS = f'{sys.prefix}/lib'
 BASE = {'PATH': os.environ['PATH'], WHEELS_GUARD: '1', 'LD_LIBRARY_PATH': f'/opt/x:{OURS}'}
 
+OUR_PYTHON = f'"{sys.prefix}/bin/python"'
 BY_SHELL = """'''exec' %s "$0" "$@"
 """
 
@@ -40,7 +41,7 @@ def script(tmp_path):
         (b'#!/usr/bin/env no-such-python\n', False, f'/opt/x:{OURS}'),
         (b'#!/usr/bin/env -S python-of-nobody\n', False, '/opt/x'),
         (b'#!/bin/sh\n', False, f'/opt/x:{OURS}'),
-        (f'#!/bin/sh\n{BY_SHELL % f'"{sys.prefix}/bin/python"'}'.encode(), True, f'/opt/x:{OURS}'),
+        (f'#!/bin/sh\n{BY_SHELL % OUR_PYTHON}'.encode(), True, f'/opt/x:{OURS}'),
         (f'#!/bin/sh\n{BY_SHELL % "/opt/other/bin/python"}'.encode(), False, '/opt/x'),
         (b'#!\n', False, f'/opt/x:{OURS}'),
         (b'\x7fELF\x02', False, f'/opt/x:{OURS}'),

@@ -58,7 +58,7 @@ def test_reports_have_columns(capsys):
 def test_a_finding_is_four_lines_and_names_its_section():
     lines = report.as_lines(error('domain', 'a\nb', 'why', 'fix'))
     assert lines == [
-        f'ERROR: {one_line("a\nb")}',
+        'ERROR: ' + one_line('a\nb'),
         '  why: why',
         '  fix: fix',
         '  see: docs/doctor.md#domain',

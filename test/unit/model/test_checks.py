@@ -28,6 +28,10 @@ SOLID = (
 )
 
 
+def solid_link(*changed):
+    return f'<link name="a">\n{SOLID.replace(*changed)}</link>'
+
+
 def robot_text(body):
     return f'<robot name="r">\n{body}\n</robot>'
 
@@ -173,11 +177,11 @@ MASS = {
         'f:2: nothing that is rigidly joined to the root "a" has mass; .* a root link "world"',
     ),
     'zero': (
-        f'<link name="a">\n{SOLID.replace('value="1"', 'value="0"')}</link>',
+        solid_link('value="1"', 'value="0"'),
         'f:3: link "a": mass: found 0 kg, expected more than 0 and',
     ),
     'indefinite': (
-        f'<link name="a">\n{SOLID.replace('ixy="0"', 'ixy="0.2"')}</link>',
+        solid_link('ixy="0"', 'ixy="0.2"'),
         'f:3: link "a": the inertia is not positive definite: found principal moments -0.1, 0.1,',
     ),
     'zero inertia': (
@@ -185,7 +189,7 @@ MASS = {
         'f:3: link "a": the inertia is not positive definite: found principal moments 0, 0, 0 kg',
     ),
     'tiny': (
-        f'<link name="a">\n{SOLID.replace('value="1"', 'value="1e-15"')}</link>',
+        solid_link('value="1"', 'value="1e-15"'),
         'f:3: link "a": mass: found 1e-15 kg, expected more than 1e-14 and',
     ),
     'tiny inertia': (
@@ -193,7 +197,7 @@ MASS = {
         'f:3: link "a": the inertia is too small for any solver: found principal moments 1e-15,',
     ),
     'triangle': (
-        f'<link name="a">\n{SOLID.replace('izz="0.1"', 'izz="0.3"')}</link>',
+        solid_link('izz="0.1"', 'izz="0.3"'),
         'f:3: link "a": no body has this inertia: found principal moments 0.1, 0.1, 0.3 kg',
     ),
 }
@@ -308,14 +312,13 @@ def test_xacro_that_would_make_something_is_an_error(inside, name, count):
 def test_materials_without_names_are_those_of_an_exporter():
     visual = f'<visual>{BALL}<material name=""><color rgba="1 0 0 1"/></material></visual>'
     assert findings(robot_text(f'<link name="a">{visual}{visual}</link>')) == []
-    assert (
-        'has no attribute "name"'
-        in errors(robot_text(f'<link name="a">{visual.replace(' name=""', "")}</link>'))[0]
-    )
+    nameless = visual.replace(' name=""', '')
+    error = errors(robot_text(f'<link name="a">{nameless}</link>'))[0]
+    assert 'has no attribute "name"' in error
 
 
 def test_a_number_that_is_none_is_reported_once():
-    text = robot_text(f'<link name="a">{SOLID.replace('value="1"', 'value="heavy"')}</link>')
+    text = robot_text(solid_link('value="1"', 'value="heavy"'))
     (error,) = findings(text)
     assert 'found "heavy", expected a number' in error
     assert len(findings(robot_text('<link name="a"><inertial/></link>'))) == 2, 'mass and inertia'

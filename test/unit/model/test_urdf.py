@@ -56,10 +56,10 @@ def link_text(inside):
 )
 def test_the_declaration_of_xml_is_read_as_urdfdom_reads_it(head, tmp_path):
     """Its parser does not look at the version, and lets blanks stand before it."""
-    robot = urdf.parse(f'{head}\n{robot_text('<link name="a"/>')}')
+    robot = urdf.parse(head + '\n' + robot_text('<link name="a"/>'))
     assert robot.link('a').line == head.count('\n') + 3
     file = tmp_path / 'r.urdf'
-    file.write_text(f'{head}\n{robot_text('<link name="a"/>')}')
+    file.write_text(head + '\n' + robot_text('<link name="a"/>'))
     assert '<?xml' not in read_file(file)  # for those who read it after us, such as a browser
 
 
@@ -86,7 +86,7 @@ def test_prefixes_of_other_programs_need_no_declaration():
 
 
 def test_a_plain_declaration_stays():
-    text = f'<?xml version="1.0" encoding="utf-8"?>\n{robot_text('<link name="a"/>')}'
+    text = '<?xml version="1.0" encoding="utf-8"?>\n' + robot_text('<link name="a"/>')
     assert plain_xml(text) is text
 
 
