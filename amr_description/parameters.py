@@ -29,11 +29,13 @@ from dataclasses import dataclass
 import functools
 import math
 import re
-from typing import Any, get_type_hints
+from typing import Any, get_type_hints, TypeAlias, TypeVar
 
 from amr_description.errors import ParameterError
 
-type Value = bool | int | float | str | tuple[Any, ...]
+Table = TypeVar('Table')
+
+Value: TypeAlias = bool | int | float | str | tuple[Any, ...]
 
 TYPE_NAMES: dict[Any, str] = {
     bool: 'bool',
@@ -280,7 +282,7 @@ def tables(
                 yield from tables(each.table, values, each.prefix)
 
 
-def build[Table](table: type[Table], values: Mapping[str, Any], prefix: str = '') -> Table:
+def build(table: type[Table], values: Mapping[str, Any], prefix: str = '') -> Table:
     """
     Make the checked dataclass of some values; the others keep their defaults.
 
@@ -366,7 +368,7 @@ class _NumberedGroup:
         return found
 
 
-type _Row = Spec | _Group | _KeyedGroup | _NumberedGroup
+_Row: TypeAlias = Spec | _Group | _KeyedGroup | _NumberedGroup
 
 
 # A table is read again and again: as its parameters are declared, checked, listed and built. Its

@@ -15,7 +15,7 @@ The rules:
 - a dataclass of :data:`MESSAGES` becomes an interface. Its ``type`` is the message's, or one of
   ``types``; a field of a message from pages that has a default may be left out, those of the node
   are always there;
-- ``type X = …`` becomes an exported type, and those of other modules that are used, such as
+- ``X: TypeAlias = …`` becomes an exported type, and those of other modules that are used, such as
   ``Vector``, too; one that stands for a plain type, such as a float, is replaced by it;
 - a public constant in capitals, a number or a string, becomes an exported constant;
 - docstrings, and comments that begin with ``#:``, become the documentation.
@@ -23,8 +23,9 @@ The rules:
 
 import argparse
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, MISSING
+from importlib import import_module
 import inspect
 import io
 import json
@@ -32,8 +33,7 @@ from pathlib import Path
 import sys
 import tokenize
 import types
-import typing
-from typing import Any, get_args, get_origin, Literal, TypeAliasType
+from typing import Any
 
 from amr_description.viewer import (
     bags,
@@ -52,13 +52,12 @@ BINARY = (states, samples)
 TARGET = Path(__file__).with_name('src') / 'protocol.ts'
 WIDTH = 100
 _PLAIN = {
-    str: 'string',
-    float: 'number',
-    int: 'number',
-    bool: 'boolean',
-    types.NoneType: 'null',
-    object: 'unknown',
-    Any: 'unknown',
+    'str': 'string',
+    'float': 'number',
+    'int': 'number',
+    'bool': 'boolean',
+    'object': 'unknown',
+    'Any': 'unknown',
 }
 
 
@@ -100,6 +99,18 @@ class _Module:
         self._module = module
         self._tree = ast.parse(text)
         self._remarks = dict(_remarks(text))
+        self._aliases = {
+            node.target.id: node.value
+            for node in self._tree.body
+            if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name)
+            if node.value and ast.unparse(node.annotation) == 'TypeAlias'
+        }
+        self._imported = {
+            alias.name: node.module
+            for node in self._tree.body
+            if isinstance(node, ast.ImportFrom) and node.module
+            for alias in node.names
+        }
         self.foreign: dict[str, str] = {}
         """Declarations of types of other modules, by name."""
 
@@ -117,57 +128,76 @@ class _Module:
                 continue
             elif isinstance(node, ast.ClassDef) and is_dataclass(value):
                 yield _documentation(ast.get_docstring(node) or '') + self._interface(node, value)
-            elif isinstance(node, ast.TypeAlias) and not _is_plain(value):
-                yield _documentation(_docstring(after)) + self._alias(name, value)
+            elif name in self._aliases and not _is_plain(self._aliases[name]):
+                yield _documentation(_docstring(after)) + self._alias(name)
 
     def _interface(self, node: ast.ClassDef, message: Any) -> str:
         lines = [f'export interface {node.name} {{']
         names = (message.type,) if isinstance(getattr(message, 'type', None), str) else ()
         if names := getattr(message, 'types', names):
             lines.append('  type: ' + ' | '.join(f"'{name}'" for name in names) + ';')
-        hints = typing.get_type_hints(message)
-        places = {_name_of(each): each for each in node.body}
+        places = {_name_of(each): each for each in node.body if isinstance(each, ast.AnnAssign)}
         for field in fields(message):
             if field.name == 'type':  # of a class with several `types`
                 continue
             lines += _documentation(self._remark(places[field.name]), '  ').splitlines()
             may_lack = field.default is not MISSING or field.default_factory is not MISSING
             mark = '?' if may_lack and self._module is requests else ''
-            lines.append(f'  {field.name}{mark}: {self._type(hints[field.name])};')
+            lines.append(f'  {field.name}{mark}: {self._type(places[field.name].annotation)};')
         return '\n'.join([*lines, '}\n'])
 
-    def _alias(self, name: str, value: TypeAliasType) -> str:
-        line = f'export type {name} = {self._type(value.__value__)};'
+    def _alias(self, name: str) -> str:
+        parts = list(map(self._type, _members(self._aliases[name])))
+        line = f'export type {name} = {" | ".join(parts)};'
         if len(line) <= WIDTH:
             return line + '\n'
-        parts = ''.join(f'\n  | {self._type(part)}' for part in get_args(value.__value__))
-        return f'export type {name} ={parts};\n'
+        return '\n  | '.join([f'export type {name} =', *parts]) + ';\n'
 
-    def _type(self, kind: Any) -> str:
-        """Return a type as TypeScript writes it. Raises TypeError."""
-        origin, arguments = get_origin(kind), get_args(kind)
-        if isinstance(kind, TypeAliasType):
-            if _is_plain(kind):
-                return self._type(kind.__value__)
-            if kind.__module__ not in {module.__name__ for module in MESSAGES}:
-                self.foreign[kind.__name__] = self._alias(kind.__name__, kind)
-            return str(kind.__name__)
-        if kind in _PLAIN:
-            return _PLAIN[kind]
-        if is_dataclass(kind):
-            return str(getattr(kind, '__name__', ''))
-        if origin is Literal:
-            return ' | '.join(json.dumps(each).replace('"', "'") for each in arguments)
-        if origin in (types.UnionType, typing.Union):
-            return ' | '.join(self._type(each) for each in arguments)
-        if origin is tuple and arguments[1:] == (...,):
-            inner = self._type(arguments[0])
-            return f'({inner})[]' if ' | ' in inner else f'{inner}[]'
-        if origin is tuple:
-            return f'[{", ".join(self._type(each) for each in arguments)}]'
-        if origin in (dict, get_origin(Mapping[str, str])) and arguments[0] is str:
-            return f'Record<string, {self._type(arguments[1])}>'
-        raise TypeError(f'{kind} has no type in TypeScript that {Path(__file__).name} knows')
+    def _type(self, kind: ast.expr) -> str:
+        """Return an annotation as TypeScript writes it. Raises TypeError."""
+        match kind:
+            case ast.Constant(value=None):
+                return 'null'
+            case ast.Constant(value=str(text)):  # of a class that comes later
+                return self._type(ast.parse(text, mode='eval').body)
+            case ast.Name(id=name):
+                return self._named(name)
+            case ast.BinOp():
+                return ' | '.join(map(self._type, _members(kind)))
+            case ast.Subscript(value=ast.Name(id='Literal'), slice=values):
+                words = ast.literal_eval(ast.Tuple(_elements(values)))
+                return ' | '.join(json.dumps(each).replace('"', "'") for each in words)
+            case ast.Subscript(
+                value=ast.Name(id='tuple'),
+                slice=ast.Tuple(elts=[each, ast.Constant(value=types.EllipsisType())]),
+            ):
+                inner = self._type(each)
+                return f'({inner})[]' if ' | ' in inner else f'{inner}[]'
+            case ast.Subscript(value=ast.Name(id='tuple'), slice=values):
+                return f'[{", ".join(map(self._type, _elements(values)))}]'
+            case ast.Subscript(
+                value=ast.Name(id='dict' | 'Mapping'),
+                slice=ast.Tuple(elts=[ast.Name(id='str'), value]),
+            ):
+                return f'Record<string, {self._type(value)}>'
+        raise _unknown(kind)
+
+    def _named(self, name: str) -> str:
+        """Return a type that has a name; note its declaration if no module of messages has it."""
+        if name in _PLAIN:
+            return _PLAIN[name]
+        if is_dataclass(getattr(self._module, name, None)):
+            return name
+        home = self
+        while name not in home._aliases:
+            if name not in home._imported:
+                raise _unknown(ast.Name(name))
+            home = _Module(import_module(home._imported[name]))
+        if _is_plain(home._aliases[name]):
+            return home._type(home._aliases[name])
+        if home._module not in MESSAGES:
+            self.foreign[name] = home._alias(name)
+        return name
 
     def _remark(self, node: ast.stmt) -> str:
         """Return the ``#:`` comment beside a field, or else that above it."""
@@ -190,15 +220,33 @@ def _remarks(text: str) -> Iterator[tuple[tuple[int, bool], str]]:
 
 def _name_of(node: ast.stmt) -> str:
     match node:
-        case ast.ClassDef(name=name) | ast.TypeAlias(name=ast.Name(id=name)):
+        case ast.ClassDef(name=name):
             return name
         case ast.Assign(targets=[ast.Name(id=name)]) | ast.AnnAssign(target=ast.Name(id=name)):
             return name
     return '_'
 
 
-def _is_plain(alias: Any) -> bool:
-    return alias.__value__ in _PLAIN
+def _is_plain(kind: ast.expr) -> bool:
+    return isinstance(kind, ast.Name) and kind.id in _PLAIN
+
+
+def _members(kind: ast.expr) -> list[ast.expr]:
+    """Return what is left and right of each ``|``."""
+    match kind:
+        case ast.BinOp(left=left, op=ast.BitOr(), right=right):
+            return [*_members(left), *_members(right)]
+    return [kind]
+
+
+def _unknown(kind: ast.expr) -> TypeError:
+    text, place = ast.unparse(kind), Path(__file__).name
+    return TypeError(f'{text} has no type in TypeScript that {place} knows')
+
+
+def _elements(inside: ast.expr) -> list[ast.expr]:
+    """Return what stands in the brackets of a type."""
+    return inside.elts if isinstance(inside, ast.Tuple) else [inside]
 
 
 def _docstring(after: ast.stmt | None) -> str:

@@ -16,15 +16,15 @@ In a recording of the simulator it is a latched message on :data:`TOPIC`
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 import json
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.errors import BagError
 
 TOPIC = '/mujoco_sim/run'
 TYPE = 'std_msgs/msg/String'
 
-type Vector = tuple[float, float, float]
-type Quaternion = tuple[float, float, float, float]
+Vector: TypeAlias = tuple[float, float, float]
+Quaternion: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,12 @@ The arguments of a stack, ``name:=value``, declared by the signature of its func
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 import inspect
-from typing import Annotated, Any, get_args, get_origin, get_type_hints, Literal
+from typing import Annotated, Any, get_args, get_origin, get_type_hints, Literal, TypeVar
 
 from amr_description.errors import BringupError, UsageError
 from amr_description.text import suggestion, truth
+
+F = TypeVar('F', bound=Callable[..., object])
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def declared(function: Callable[..., object]) -> list[Argument]:
     ]
 
 
-def with_arguments_of[F: Callable[..., object]](other: Callable[..., object]) -> Callable[[F], F]:
+def with_arguments_of(other: Callable[..., object]) -> Callable[[F], F]:
     """
     Return a decorator: the ``**others`` of a stack's function are the arguments of another stack.
 

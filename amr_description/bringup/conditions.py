@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Set as AbstractSet
 from dataclasses import dataclass, field, replace
 import enum
 import re
+from typing import TypeAlias
 
 from amr_description.bringup.validation import NUMBER, require, TEXT, Validator
 from amr_description.errors import BringupError
@@ -29,7 +30,7 @@ class NodeRef(Member):
     required: bool
 
 
-type NameOf = Callable[[NodeRef], str]
+NameOf: TypeAlias = Callable[[NodeRef], str]
 """Returns the name of a node on the screen, ``create-3``."""
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, InitVar, KW_ONLY, replace
 from os import PathLike
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from amr_description.bringup import validation
 from amr_description.bringup.conditions import (
@@ -35,8 +35,8 @@ from amr_description.bringup.handlers import (
 )
 from amr_description.errors import BringupError
 
-type Scalar = bool | int | float | str
-type ParameterValue = Scalar | Sequence[Scalar] | Mapping[str, ParameterValue]
+Scalar: TypeAlias = bool | int | float | str
+ParameterValue: TypeAlias = Scalar | Sequence[Scalar] | Mapping[str, 'ParameterValue']
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class ParameterText:
     text: str
 
 
-type Parameters = Sequence[Mapping[str, ParameterValue] | ParameterText | str | Path]
+Parameters: TypeAlias = Sequence[Mapping[str, ParameterValue] | ParameterText | str | Path]
 
 DEFAULT_TIMEOUT = 60.0
 """s"""

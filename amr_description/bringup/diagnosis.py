@@ -11,6 +11,7 @@ explain itself: somebody waits for the end.
 from collections.abc import Callable, Collection, Mapping, Sequence
 import re
 import signal
+from typing import TypeAlias
 
 from amr_description.bringup.description import Node
 from amr_description.bringup.process import RunningProcess
@@ -25,7 +26,7 @@ TIMEOUT = 20.0
 _MARK = 'doctor: '
 _LOGGED_REASON = re.compile(r'\[(?:ERROR|FATAL)\] \[[\d.]+\] \[(?!rcl|rmw)')
 
-type Spawn = Callable[[Sequence[str], Callable[[str], None]], RunningProcess]
+Spawn: TypeAlias = Callable[[Sequence[str], Callable[[str], None]], RunningProcess]
 """Starts a command; takes the callback for the lines of its output; may raise OSError."""
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 import os
 from pathlib import Path
 import signal
+from typing import TypeAlias
 
 from amr_description.bringup.conditions import Condition, PathState, RosGraph
 from amr_description.bringup.graph_conditions import GraphCondition, PathExists
@@ -26,7 +27,7 @@ COMMAND = python_command(
 _POLL_PERIOD = 0.1  # s
 _FIRST_DELAY, _MAX_DELAY = 1.0, 30.0  # s before the process is started again
 
-type Spawn = Callable[[Callable[[str], None]], RunningProcess]
+Spawn: TypeAlias = Callable[[Callable[[str], None]], RunningProcess]
 """Starts the process; takes the callback for the lines of its output."""
 
 

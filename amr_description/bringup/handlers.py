@@ -21,12 +21,14 @@ return quickly.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias, TypeVar
 
 from amr_description.bringup import user_errors, validation
 from amr_description.bringup.conditions import CONDITION, Condition, Member, NodeRef, StackState
 
-type Level = Literal['INFO', 'WARNING', 'ERROR']
+T = TypeVar('T')
+
+Level: TypeAlias = Literal['INFO', 'WARNING', 'ERROR']
 """The severity of a message, as launch writes it."""
 
 
@@ -78,11 +80,11 @@ class Log:
     level: Level = 'INFO'
 
 
-type Reaction = None | Shutdown | Log | Member | Sequence[Log | Shutdown | Member]
-type ExitHandler = Callable[[Exited], Reaction]
-type StopHandler = Callable[[Stopping], Log | Sequence[Log] | None]
-type LineHandler = Callable[[str], Reaction]
-type StateHandler = Callable[[StackState], Reaction]
+Reaction: TypeAlias = None | Shutdown | Log | Member | Sequence[Log | Shutdown | Member]
+ExitHandler: TypeAlias = Callable[[Exited], Reaction]
+StopHandler: TypeAlias = Callable[[Stopping], Log | Sequence[Log] | None]
+LineHandler: TypeAlias = Callable[[str], Reaction]
+StateHandler: TypeAlias = Callable[[StackState], Reaction]
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +112,7 @@ class HandlerResult:
     lines: Sequence[Log] = ()
 
 
-def call_handler[T](name: str, handler: Callable[[T], Reaction], event: T) -> HandlerResult:
+def call_handler(name: str, handler: Callable[[T], Reaction], event: T) -> HandlerResult:
     """
     Call a handler; if it raises, the stack is to stop with exit code 1.
 

@@ -13,13 +13,14 @@ from datetime import datetime
 import hashlib
 from pathlib import Path
 import re
+from typing import TypeAlias
 
 from amr_description.ament_index import package_prefix, prefixes
 from amr_description.bringup.handlers import Level
 from amr_description.errors import ResourceError
 from amr_description.model.xacro_markup import is_xacro
 
-type Note = tuple[Level, str]
+Note: TypeAlias = tuple[Level, str]
 """(level, text) of a message in the log."""
 
 _DIGITS = 12  # of the SHA-256; enough to compare by eye

@@ -46,12 +46,12 @@ from pathlib import Path
 import socket
 import tempfile
 import time
-from typing import TextIO
+from typing import TextIO, TypeAlias
 
 EVENTS_FILE = 'events.jsonl'
 _MIN_SPACE = 65_536  # bytes; a disk with less cannot take the parameters and the first lines
 
-type Event = Mapping[str, object]
+Event: TypeAlias = Mapping[str, object]
 
 
 class EventLog:

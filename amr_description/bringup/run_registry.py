@@ -24,7 +24,7 @@ import os
 from pathlib import Path
 import socket
 import time
-from typing import Any, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING, TypeAlias
 
 from amr_description.bringup.process_usage import start_time
 from amr_description.bringup.run_log import Event
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 COMMAND = 'ros2 run amr_description bringup'
 """How messages name the command: so it works in every shell that has ROS."""
 
-type State = dict[str, Any]
+State: TypeAlias = dict[str, Any]
 """The content of a run's file."""
 
 _NOT_WRITTEN = ('waiting', 'condition_held')  # events that another one follows at once

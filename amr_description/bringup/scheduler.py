@@ -16,7 +16,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 import math
-from typing import Any
+from typing import Any, TypeAlias, TypeVar
 
 from amr_description.bringup.conditions import (
     After,
@@ -45,12 +45,14 @@ from amr_description.bringup.handlers import (
 from amr_description.bringup.placement import Placement
 from amr_description.errors import BringupError
 
+T = TypeVar('T')
+
 TIMED_OUT = 124
 """Exit code after a timeout, the one of ``timeout(1)``."""
 
 _OVER = (Verdict.HOLDS, Verdict.NEVER)
 
-type Wait = tuple[Node | None, Condition]
+Wait: TypeAlias = tuple[Node | None, Condition]
 """A node and the condition it waits for; None: the stack itself waits to be ready."""
 
 
@@ -328,7 +330,7 @@ class Scheduler:
                     self._react('an event handler', handler.run, self._state)
             self.over = self.shutdown is not None
 
-    def _react[T](self, name: str, handler: Callable[[T], Reaction], event: T) -> None:
+    def _react(self, name: str, handler: Callable[[T], Reaction], event: T) -> None:
         """Call a handler, and do what it returns."""
         self._apply(name, call_handler(name, handler, event))
 

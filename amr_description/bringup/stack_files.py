@@ -9,6 +9,7 @@ import inspect
 from pathlib import Path
 import sys
 from types import ModuleType
+from typing import TypeAlias
 
 from amr_description.ament_index import path_of
 from amr_description.bringup import user_errors
@@ -20,7 +21,7 @@ from amr_description.errors import AmrError, BringupError, UsageError
 from amr_description.registry import resolve as import_target
 from amr_description.text import suggestion
 
-type StackFunction = Callable[..., Stack]
+StackFunction: TypeAlias = Callable[..., Stack]
 
 _include_chain: list[str] = []  # the stacks whose functions are being called, outermost first
 

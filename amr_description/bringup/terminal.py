@@ -30,11 +30,12 @@ import os
 import signal
 import subprocess
 import termios
+from typing import TypeAlias
 
 from amr_description.bringup.process import RunningProcess, signal_blocked
 from amr_description.errors import UsageError
 
-type _Settings = list[int | list[bytes | int]]  # as termios.tcgetattr() returns them
+_Settings: TypeAlias = list[int | list[bytes | int]]  # as termios.tcgetattr() returns them
 
 STDIN = 0  # sys.stdin is None where it was closed
 _POLL_PERIOD = 0.5  # s between two looks whether the shell has put the job into the foreground

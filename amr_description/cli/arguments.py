@@ -3,6 +3,9 @@
 """The flags that several verbs have, and the types of values on a command line."""
 
 from argparse import ArgumentParser, ArgumentTypeError
+from typing import TypeVar
+
+T = TypeVar('T', int, float)
 
 
 def add_node_arguments(parser: ArgumentParser) -> None:
@@ -93,7 +96,7 @@ def unicode_text(text: str) -> str:
     return text
 
 
-def _number[T: (int, float)](kind: type[T], text: str) -> T | None:
+def _number(kind: type[T], text: str) -> T | None:
     try:
         return kind(text)
     except ValueError:

@@ -19,7 +19,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import enum
-from typing import Any, ClassVar, Protocol, TYPE_CHECKING
+from typing import Any, ClassVar, Generic, Protocol, TYPE_CHECKING, TypeVar
 
 from amr_description.control.interfaces import (
     CommandInterface,
@@ -32,6 +32,12 @@ from amr_description.control.world import World
 if TYPE_CHECKING:
     from amr_description.model.ros2_control_tag import HardwareInfo
     from amr_description.model.urdf import Robot
+
+Sample = TypeVar('Sample')
+Request = TypeVar('Request')
+Response = TypeVar('Response')
+Feedback = TypeVar('Feedback')
+Result = TypeVar('Result')
 
 
 # --- Log -----------------------------------------------------------------------------------------
@@ -111,7 +117,7 @@ class Port:
     """An output that is left out, with a warning, where its message package is not installed."""
 
 
-class Input[Sample]:
+class Input(Generic[Sample]):
     """
     The queue of a subscribed topic: any thread puts samples, the control thread drains them.
 
@@ -119,10 +125,7 @@ class Input[Sample]:
     """
 
     def __init__(
-        self,
-        port: Port,
-        capacity: int = 16,
-        check: Callable[[Sample, int], str] | None = None,
+        self, port: Port, capacity: int = 16, check: Callable[[Sample, int], str] | None = None
     ) -> None:
         """
         Declare it.
@@ -171,7 +174,7 @@ class Input[Sample]:
         self._samples.clear()
 
 
-class Output[Sample]:
+class Output(Generic[Sample]):
     """A published topic; the control thread sends samples."""
 
     def __init__(self, port: Port) -> None:
@@ -203,7 +206,7 @@ class ServicePort:
     response: type | str
 
 
-class Service[Request, Response]:
+class Service(Generic[Request, Response]):
     """
     A service that the controller answers in every state from inactive on.
 
@@ -241,7 +244,7 @@ class GoalStatus(enum.IntEnum):
     ABORTED = 6
 
 
-class Goal[Request, Feedback, Result]:
+class Goal(Generic[Request, Feedback, Result]):
     """
     An accepted goal of an action, which the control thread follows until it ends it.
 
@@ -286,7 +289,7 @@ class Goal[Request, Feedback, Result]:
             self.outcome = (status, result)
 
 
-class Action[Request, Feedback, Result]:
+class Action(Generic[Request, Feedback, Result]):
     """
     An action that the controller serves: the ROS thread puts goals, the control thread takes them.
 
@@ -295,10 +298,7 @@ class Action[Request, Feedback, Result]:
     """
 
     def __init__(
-        self,
-        port: ActionPort,
-        check: Callable[[Request, int], str],
-        capacity: int = 16,
+        self, port: ActionPort, check: Callable[[Request, int], str], capacity: int = 16
     ) -> None:
         """
         Declare it.

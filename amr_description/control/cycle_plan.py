@@ -17,6 +17,7 @@ was made; in the middle of it, if a plugin raises, where the plain calls then go
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from amr_description.control.loaded_component import LoadedComponent
 from amr_description.control.loaded_controller import LoadedController
@@ -35,7 +36,7 @@ class UpdateFailure:
     error: Exception
 
 
-type Failure = ReadFailure | UpdateFailure | WriteFailure
+Failure: TypeAlias = ReadFailure | UpdateFailure | WriteFailure
 
 
 class CyclePlan:

@@ -3,6 +3,7 @@
 """A hardware component inside the manager: its lifecycle state, interfaces, and its own rate."""
 
 from collections.abc import Iterable
+from typing import TypeVar
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import HardwareComponent, Log, Severity
@@ -11,6 +12,8 @@ from amr_description.control.plugin_errors import describe, log_traceback
 from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
 from amr_description.errors import HardwareError
 from amr_description.model.hardware_info import HardwareType
+
+H = TypeVar('H', bound=Handle)
 
 _INACTIVE, _ACTIVE = LifecycleState.INACTIVE, LifecycleState.ACTIVE  # looked up in each cycle
 
@@ -212,7 +215,7 @@ class LoadedComponent:
         log_traceback(self._log, error)
 
 
-def by_name[H: Handle](handles: Iterable[H], owner: str) -> dict[str, H]:
+def by_name(handles: Iterable[H], owner: str) -> dict[str, H]:
     """Index interfaces by name. Raises HardwareError: ``owner`` exports a name twice."""
     found: dict[str, H] = {}
     for handle in handles:

@@ -4,7 +4,7 @@
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.control.chains import ChainInterfaces
 from amr_description.control.contracts import Action, Controller, Input
@@ -20,7 +20,9 @@ from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
 from amr_description.errors import ControllerError
 
-type TransitionCallback = Callable[[LifecycleState, LifecycleState, LifecycleState | None], None]
+TransitionCallback: TypeAlias = Callable[
+    [LifecycleState, LifecycleState, LifecycleState | None], None
+]
 """Called as (start, goal, None) when a transition begins, (start, goal, reached) when it ends."""
 
 

@@ -9,10 +9,11 @@ Nothing here reads a clock: whoever measures is given a :data:`Stopwatch`.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 from amr_description.clock import NANOSECONDS
 
-type Stopwatch = Callable[[], int]
+Stopwatch: TypeAlias = Callable[[], int]
 """Returns a monotonic time, ns."""
 
 

@@ -10,7 +10,7 @@ that becomes too old while in force is replaced by zero velocity.
 from collections.abc import Iterable
 import math
 from operator import attrgetter
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
 from amr_description.control.contracts import Input, Log, Severity
@@ -22,7 +22,7 @@ ns: a stamp further ahead than this is of another clock (system time and simulat
 apart). Below it, a stamp ahead keeps the command in force for longer, as in ros2_control.
 """
 
-type Twist = tuple[float, ...]
+Twist: TypeAlias = tuple[float, ...]
 """m/s and rad/s, in the order of the axes of the reception."""
 
 PLANAR = ('linear', 'angular')

@@ -17,9 +17,10 @@ a run, and the effective separation s = m_s separation:
 The three are solved together: the turn t of a straight run depends on the radii and on s.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 import math
+from operator import mul
 
 from amr_description.errors import CalibrationError
 
@@ -137,9 +138,9 @@ def fit(straight: Sequence[Run], turning: Sequence[Run], separation: float) -> G
     right, right_drift = _side('right', [run.right for run in straight], straight)
     rolled = [right * run.right - left * run.left for run in turning]
     turned = [run.truth.turn - right_drift * run.right - left_drift * run.left for run in turning]
-    if not math.sumprod(rolled, turned):
+    if not _sum_of_products(rolled, turned):
         raise CalibrationError(f'the robot did not turn in any of {len(turning)} turns')
-    effective = math.sumprod(rolled, rolled) / math.sumprod(rolled, turned)
+    effective = _sum_of_products(rolled, rolled) / _sum_of_products(rolled, turned)
     geometry = Geometry(
         separation,
         separation_multiplier=effective / separation,
@@ -159,11 +160,16 @@ def yaw_error(run: Run, geometry: Geometry) -> float:
 
 def _side(name: str, travel: Sequence[float], runs: Sequence[Run]) -> tuple[float, float]:
     """Fit the true distance, and half the true turn, to the travel of a side (least squares)."""
-    square = math.sumprod(travel, travel)
+    square = _sum_of_products(travel, travel)
     if not square:
         raise CalibrationError(f'the wheels on the {name} did not turn in any straight run')
-    distance = math.sumprod(travel, [run.truth.distance for run in runs])
-    return distance / square, math.sumprod(travel, [run.truth.turn / 2.0 for run in runs]) / square
+    distance = _sum_of_products(travel, [run.truth.distance for run in runs])
+    half_turn = _sum_of_products(travel, [run.truth.turn / 2.0 for run in runs])
+    return distance / square, half_turn / square
+
+
+def _sum_of_products(one: Iterable[float], other: Iterable[float]) -> float:
+    return math.fsum(map(mul, one, other))
 
 
 def _check(geometry: Geometry) -> None:

@@ -22,7 +22,7 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -120,7 +120,7 @@ class ParallelGripperParameters:
     )
 
 
-type _Goal = Goal[GripperGoal, GripperState, GripperState]
+_Goal: TypeAlias = Goal[GripperGoal, GripperState, GripperState]
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from operator import itemgetter
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from amr_description.control.contracts import Controller, ControllerContext, Output, Port, Severity
 from amr_description.control.interfaces import (
@@ -35,9 +35,9 @@ from amr_description.parameters import group, parameter
 
 _FIELDS = (POSITION, VELOCITY, EFFORT)
 
-type _Pick = Callable[[list[float]], tuple[float, ...]]
+_Pick: TypeAlias = Callable[[list[float]], tuple[float, ...]]
 
-type _Row = dict[str, StateInterface]
+_Row: TypeAlias = dict[str, StateInterface]
 """The states of one joint, sensor or GPIO, by the names under which they are published."""
 
 

@@ -19,11 +19,12 @@ when its segment begins, so a trajectory of a million points costs the control t
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 import math
+from typing import TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.trajectory_samples import TrajectoryPoint
 
-type Values = tuple[float, ...]
+Values: TypeAlias = tuple[float, ...]
 
 _HALF_TURN_WIDTH = 1e-9
 """rad: how near to a half turn the direction of a wrapping joint is that of its positions."""

@@ -30,7 +30,7 @@ Differences from joint_trajectory_controller 4.x:
 from collections.abc import Sequence
 import math
 from operator import add
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -76,7 +76,9 @@ from amr_description.controllers.pid import Pid
 from amr_description.controllers.trajectory_checks import TrajectoryRules
 from amr_description.controllers.trajectory_tolerances import Violation
 
-type FollowGoal = Goal[FollowTrajectoryGoal, FollowTrajectoryFeedback, FollowTrajectoryResult]
+FollowGoal: TypeAlias = Goal[
+    FollowTrajectoryGoal, FollowTrajectoryFeedback, FollowTrajectoryResult
+]
 
 _INVALID_GOAL = -1
 _PATH_TOLERANCE_VIOLATED = -4

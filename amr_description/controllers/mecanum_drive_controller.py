@@ -26,7 +26,7 @@ expects. A remapping ``~/tf_odometry:=/tf`` works as well.
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -65,7 +65,7 @@ from amr_description.controllers.mecanum_drive_parameters import (
 from amr_description.controllers.odometry import LEAST_PERIOD
 from amr_description.controllers.rate_limiter import AxisLimiter
 
-type Twist = tuple[float, float, float]
+Twist: TypeAlias = tuple[float, float, float]
 """m/s along x and y, rad/s about z."""
 
 _AT_REST = (0.0, 0.0, 0.0)

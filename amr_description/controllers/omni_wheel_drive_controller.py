@@ -18,7 +18,7 @@ Differences from omni_wheel_drive_controller 4.x:
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Controller, ControllerContext, Input, Output
@@ -49,7 +49,7 @@ from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
 
-type Twist = tuple[float, float, float]
+Twist: TypeAlias = tuple[float, float, float]
 """m/s along x and y, rad/s about z."""
 
 _SIX_ZEROS = (0.0,) * 6

@@ -24,7 +24,7 @@ Differences from pid_controller 4.x:
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
@@ -59,6 +59,8 @@ from amr_description.controllers.pid import Pid, PidGains, STRATEGIES
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import CLAMP, FormerParameter
 from amr_description.parameters import keyed_group, parameter
+
+Handle = TypeVar('Handle')
 
 _NEWEST = Qos(depth=1, reliability='best_effort')
 _COMMAND = 'control_msgs/msg/MultiDOFCommand'
@@ -466,7 +468,7 @@ class PidController(Controller):
         return SetBoolResponse(success=True)
 
 
-def _by_interface[Handle](rows: Sequence[tuple[Handle, ...]]) -> tuple[Handle, ...]:
+def _by_interface(rows: Sequence[tuple[Handle, ...]]) -> tuple[Handle, ...]:
     """Return the first of each row, then the second."""
     return tuple(handle for column in zip(*rows, strict=True) for handle in column)
 

@@ -18,6 +18,7 @@ allow.
 
 from dataclasses import dataclass, field
 import math
+from typing import TypeAlias
 
 from amr_description.errors import ParameterError
 
@@ -28,7 +29,7 @@ _AT_REST = (0.0, 0.0)
 _ROUNDING = 1e-9
 
 
-type Twist = tuple[float, float]
+Twist: TypeAlias = tuple[float, float]
 """m/s along x, rad/s about z."""
 
 

@@ -8,6 +8,7 @@ A tolerance of 0 is none. Semantics and texts: ``tolerances.cpp`` of joint_traje
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from amr_description.control.trajectory_samples import (
     FollowTrajectoryGoal,
@@ -21,7 +22,7 @@ _ERASE = -1.0
 _EPSILON = 2.0**-52
 _KINDS = ('position', 'velocity', 'acceleration')
 
-type Limits = tuple[float, float, float]
+Limits: TypeAlias = tuple[float, float, float]
 """Of position, velocity, acceleration; 0: none."""
 
 

@@ -27,7 +27,7 @@ from amr_description.controllers.steering_parameters import SteeringParameters
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.model.axles import vector_text
 from amr_description.model.findings import Finding, Severity
-from amr_description.model.frames import conjugate, rotate, Transform, Vector
+from amr_description.model.frames import conjugate, dot, rotate, Transform, Vector
 from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Joint, JointType, Robot
@@ -167,7 +167,7 @@ class _Drive:
     def axles(self, mounts: Sequence[_WheelMount], parameters: Sequence[str]) -> Iterator[Finding]:
         """Warn of wheels that turn backwards, or not about y."""
         for mount in mounts:
-            along = math.sumprod(mount.axis, _LEFT)
+            along = dot(mount.axis, _LEFT)
             if along < _ALIGNED:
                 what = 'turns backwards' if along < -_ALIGNED else 'does not roll ahead'
                 yield self.warn(
@@ -290,7 +290,7 @@ def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[F
     names = ('steering_joints_names', 'front_wheels_names', 'rear_wheels_names')
     yield from _check_pair(drive, steered, parameters, 'steering', names)
     for mount in steered:
-        if math.sumprod(mount.axis, _UP) < _ALIGNED:
+        if dot(mount.axis, _UP) < _ALIGNED:
             yield drive.warn(
                 names,
                 f'joint {quote(mount.joint)} does not steer to the left where it is positive',

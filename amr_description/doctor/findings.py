@@ -5,6 +5,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeAlias
 
 from amr_description.doctor.observations import Observations
 
@@ -33,7 +34,7 @@ class Finding:
     """The command or the line that mends it; one line."""
 
 
-type Rule = Callable[[Observations], Iterable[Finding]]
+Rule: TypeAlias = Callable[[Observations], Iterable[Finding]]
 """Its name is the name of the rule; its docstring says what it demands."""
 
 

@@ -10,6 +10,7 @@ class in Python that can be imported is used as it is.
 
 from collections.abc import Callable
 import re
+from typing import TypeAlias
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity
 from amr_description.errors import HardwareError
@@ -24,7 +25,7 @@ _SIMULATORS = re.compile(
     '(^|_)(gz|ign|ignition|gazebo|mujoco|webots|isaac|topic_based|joint_state_topic)(_|$)'
 )
 
-type HardwareClass = Callable[..., HardwareComponent]
+HardwareClass: TypeAlias = Callable[..., HardwareComponent]
 
 
 def class_in_simulator(

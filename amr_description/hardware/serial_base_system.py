@@ -30,6 +30,7 @@ without a board: ``ros2 run amr_description motor_board``.
 
 from collections.abc import Iterable, Sequence
 import math
+from typing import TypeVar
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity, World
 from amr_description.control.interfaces import (
@@ -43,6 +44,8 @@ from amr_description.errors import HardwareDeactivationError, HardwareError
 from amr_description.hardware.serial_link import read_parameters, SerialBoard
 from amr_description.hardware.serial_protocol import Arm, BoardMode, Disarm, Get, Set, State
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo
+
+H = TypeVar('H', bound=Handle)
 
 COMMANDS, STATES = (VELOCITY,), (POSITION, VELOCITY)
 
@@ -92,7 +95,7 @@ class SerialBaseSystem(HardwareComponent):
         """Return those of the tag, in its order."""
         return self._in_order(command for side in self._sides for command in side.commands)
 
-    def _in_order[H: Handle](self, handles: Iterable[H]) -> list[H]:
+    def _in_order(self, handles: Iterable[H]) -> list[H]:
         joints = [joint.name for joint in self.info.joints]
         return sorted(handles, key=lambda handle: joints.index(handle.prefix))
 

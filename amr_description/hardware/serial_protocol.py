@@ -59,7 +59,7 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 import math
 import re
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.errors import HardwareError
 
@@ -166,9 +166,9 @@ class Error:
     reason: Reason
 
 
-type Question = Hello | Get | Arm | Set | Disarm
-type Answer = Board | State | Error
-type Message = Question | Answer
+Question: TypeAlias = Hello | Get | Arm | Set | Disarm
+Answer: TypeAlias = Board | State | Error
+Message: TypeAlias = Question | Answer
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ as in launch, which changes the context and returns the entities to visit next.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.locations import Located, refusal
@@ -37,7 +37,7 @@ class LaunchDescriptionEntity(Located):
         return ()
 
 
-type Entities = Iterable[LaunchDescriptionEntity]
+Entities: TypeAlias = Iterable[LaunchDescriptionEntity]
 
 
 class Action(LaunchDescriptionEntity):

@@ -4,15 +4,15 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.descriptions import LaunchDescriptionEntity
 from amr_description.launch_api.locations import Located, refusal
 from amr_description.launch_api.substitutions import SomeSubstitutions, text_of
 
-type Function = Callable[..., Any]
-type SomeActions = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity] | Function
+Function: TypeAlias = Callable[..., Any]
+SomeActions: TypeAlias = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity] | Function
 
 
 class Event:

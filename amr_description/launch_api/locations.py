@@ -5,9 +5,11 @@
 from pathlib import Path
 import sys
 from types import FrameType
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
 from amr_description.errors import BringupError
+
+E = TypeVar('E', bound=BringupError)
 
 _HERE = str(Path(__file__).parent)
 _PACKAGE = str(Path(__file__).parents[1])
@@ -29,7 +31,7 @@ def refusal(text: str, where: str | None = None) -> BringupError:
     return at(BringupError(text), caller() if where is None else where)
 
 
-def at[E: BringupError](error: E, where: str) -> E:
+def at(error: E, where: str) -> E:
     """Have an error begin with a place, unless it does."""
     if where and not error.is_located:
         error.args = (f'{where}: {error}',)

@@ -10,7 +10,7 @@ text of Python stays a text. ``ParameterValue`` says the type.
 from collections.abc import Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, get_args, get_origin
+from typing import Any, get_args, get_origin, TypeAlias
 
 import yaml
 
@@ -34,7 +34,7 @@ _HINT = (
     'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
 )
 
-type Entry = Mapping[str, Plain] | ParameterText | str | Path
+Entry: TypeAlias = Mapping[str, Plain] | ParameterText | str | Path
 
 
 class ParameterValue(Located):

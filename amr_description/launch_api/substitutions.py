@@ -13,7 +13,7 @@ import re
 import shlex
 import shutil
 import subprocess
-from typing import Any
+from typing import Any, TypeAlias
 import uuid
 
 from amr_description.ament_index import executable_of, OWN_PACKAGE
@@ -23,7 +23,7 @@ from amr_description.launch_api.counterparts import prefix_of, share_of
 from amr_description.launch_api.locations import at, Located, refusal
 from amr_description.text import suggestion
 
-type SomeSubstitutions = Any
+SomeSubstitutions: TypeAlias = Any
 """A text, a substitution, or a list of them, as in launch."""
 
 

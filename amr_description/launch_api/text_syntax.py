@@ -4,13 +4,14 @@
 
 from collections.abc import Callable, Sequence
 import re
+from typing import TypeAlias
 
 from amr_description.launch_api import logic, substitutions
 from amr_description.launch_api.locations import refusal
 from amr_description.launch_api.substitutions import Substitution, TextSubstitution
 from amr_description.text import did_you_mean
 
-type Argument = list[Substitution]
+Argument: TypeAlias = list[Substitution]
 
 
 def _env(name: Argument, default: Argument | None = None) -> Substitution:

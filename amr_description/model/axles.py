@@ -14,6 +14,7 @@ import math
 from amr_description.model.frames import (
     conjugate,
     cross,
+    dot,
     multiply,
     Quaternion,
     rotate,
@@ -103,7 +104,7 @@ def _cylinder_fault(robot: Robot, joint: Joint, turned: Quaternion) -> AxleFault
     """Return the fault of a wheel with a right axle and a cylinder that does not turn about it."""
     collisions = robot.link(joint.child).collisions
     axes = [rotate(part.origin.rotation, _Z) for part in collisions]
-    is_round = any(abs(math.sumprod(axis, joint.axis)) > _TUMBLING for axis in axes)
+    is_round = any(abs(dot(axis, joint.axis)) > _TUMBLING for axis in axes)
     if is_round or not all(isinstance(part.geometry, Cylinder) for part in collisions) or not axes:
         return None
     if not all(map(math.isfinite, axes[0])):
@@ -126,9 +127,9 @@ def _fix(robot: Robot, joint: Joint, turned: Quaternion, parent: Quaternion) -> 
     """
     cylinder = _cylinder_axis(robot, joint)
     wanted = rotate(conjugate(turned), _LEFT)
-    if cylinder is None or abs(math.sumprod(cylinder, wanted)) > ACROSS:
+    if cylinder is None or abs(dot(cylinder, wanted)) > ACROSS:
         return f'write {_axis_text(wanted)}'
-    along = math.sumprod(cylinder, joint.axis)
+    along = dot(cylinder, joint.axis)
     axis = joint.axis if abs(along) > ACROSS else cylinder
     # How far a wheel is turned about its axle does not matter.
     rpy = rpy_from_quaternion(_rotation_between(axis, rotate(conjugate(parent), _LEFT)))
@@ -154,7 +155,7 @@ def _cylinder_axis(robot: Robot, joint: Joint) -> Vector | None:
 def _rotation_between(one: Vector, other: Vector) -> Quaternion:
     """Return the shortest rotation that takes a unit vector to another one."""
     x, y, z = cross(one, other)
-    w = 1.0 + math.sumprod(one, other)
+    w = 1.0 + dot(one, other)
     length = math.hypot(x, y, z, w)
     if length < _OPPOSITE:  # half a turn, about any axis that is square to both
         a, b, c = one

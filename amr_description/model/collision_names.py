@@ -12,10 +12,11 @@ link. Here nothing is merged: such a name is that of the collision of its own li
 
 from collections.abc import Iterator, Sequence
 import re
+from typing import TypeAlias
 
 from amr_description.model.robot import Link, Robot
 
-type CollisionKey = tuple[str, int]
+CollisionKey: TypeAlias = tuple[str, int]
 """A link, and the number of one of its collisions."""
 
 _MERGED = '_fixed_joint_lump__'

@@ -10,11 +10,12 @@ number of points: exact for up to a few dozen corners; of a ball of very many it
 """
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-type Points = NDArray[np.float64]
+Points: TypeAlias = NDArray[np.float64]
 
 DIRECTIONS = 512
 """How many extreme points are looked for."""

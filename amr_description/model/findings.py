@@ -12,7 +12,7 @@ both report the same.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from amr_description.errors import DescriptionError
 from amr_description.text import one_line
@@ -99,7 +99,7 @@ class Finding:
         return f'{self.severity}: {self.text}'
 
 
-type Report = Callable[[Finding], None]
+Report: TypeAlias = Callable[[Finding], None]
 
 
 def raise_error(finding: Finding) -> None:

@@ -14,6 +14,7 @@ the polygon is from the origin of its frame.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,7 @@ from amr_description.model.planar_hull import cut_between, planar_hull, PlanarPo
 from amr_description.model.robot import Box, Collision, Cylinder, Mesh, Robot, Sphere
 from amr_description.text import quote
 
-type Floats = NDArray[np.float64]
+Floats: TypeAlias = NDArray[np.float64]
 
 FRAMES = ('base_link', 'base_footprint')
 """Costmaps are told one of these, as a rule; the first that a robot has is taken."""
@@ -129,7 +130,7 @@ def footprint(
     return Footprint(named, _in_order(_rounded(hull, simplified(hull, tolerance))))
 
 
-type _Body = tuple[Points, NDArray[np.intp]]
+_Body: TypeAlias = tuple[Points, NDArray[np.intp]]
 """Corners and edges of a polyhedron."""
 
 

@@ -20,10 +20,11 @@ Plain floats are several times faster than numpy at these sizes, and the control
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
-type Vector = tuple[float, float, float]
-type Quaternion = tuple[float, float, float, float]
-type Matrix3 = tuple[Vector, Vector, Vector]
+Vector: TypeAlias = tuple[float, float, float]
+Quaternion: TypeAlias = tuple[float, float, float, float]
+Matrix3: TypeAlias = tuple[Vector, Vector, Vector]
 
 IDENTITY_QUATERNION: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
@@ -75,6 +76,11 @@ def rotate(rotation: Quaternion, vector: Vector) -> Vector:
         vy + w * ty + z * tx - x * tz,
         vz + w * tz + x * ty - y * tx,
     )
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Return the scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:

@@ -28,6 +28,7 @@ ROS 1 took ``/world`` for others the link is taken, too.
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 import math
+from typing import TypeAlias
 
 from amr_description.model.gazebo import Noise
 from amr_description.model.gazebo_builder import node_name
@@ -37,7 +38,7 @@ from amr_description.model.robot import WORLD_LINK
 from amr_description.model.sensors import Camera, ContactSensor, Lidar, SensorMount, WorldSensor
 from amr_description.text import quote
 
-type Read = Callable[[SensorTag, PluginElement], list[WorldSensor]]
+Read: TypeAlias = Callable[[SensorTag, PluginElement], list[WorldSensor]]
 
 _LIDARS = ('gpu_lidar', 'gpu_ray', 'lidar', 'ray')
 _CAMERAS = ('camera', 'depth', 'depth_camera', 'multicamera')

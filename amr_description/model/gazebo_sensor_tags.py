@@ -16,7 +16,7 @@ from lxml import etree
 
 from amr_description.model.collision_names import find_collisions
 from amr_description.model.findings import Finding
-from amr_description.model.frames import rotate, Transform, Vector
+from amr_description.model.frames import dot, rotate, Transform
 from amr_description.model.gazebo import Noise
 from amr_description.model.robot import JointType, Robot
 from amr_description.model.sensors import (
@@ -270,7 +270,7 @@ class SensorTag:
             return 'optical' in frame
         x_axis, z_axis = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
         forward = rotate((self.poses[self.link] @ pose).rotation, x_axis)
-        return _dot(rotate(self.poses[link].rotation, z_axis), forward) > math.sqrt(0.5)
+        return dot(rotate(self.poses[link].rotation, z_axis), forward) > math.sqrt(0.5)
 
     def topic(self, name: str) -> str:
         """Return a topic, or report that it cannot be one."""
@@ -554,7 +554,3 @@ def _named(path: str) -> str:
     *_, parent, name = ('', *path.split('/'))
     parent = parent.partition('[')[0]
     return f'<{name}> of <{parent}>' if parent else f'<{name}>'
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return math.sumprod(a, b)

@@ -15,6 +15,7 @@ of a 3D solid body represented by a triangle mesh", 2004.
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,7 @@ from amr_description.model.meshes import TriangleMesh
 from amr_description.model.robot import Inertia
 from amr_description.model.shapes import Solid, solid_moments, volume as primitive_volume
 
-type Matrix = NDArray[np.float64]
+Matrix: TypeAlias = NDArray[np.float64]
 
 # Corners closer than the longest edge of the box around the mesh over this are one.
 _CELLS = 2**21 - 1

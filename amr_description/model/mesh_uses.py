@@ -5,7 +5,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from amr_description.errors import AmrError, MeshError
 from amr_description.model.frames import Vector
@@ -14,7 +14,7 @@ from amr_description.model.robot import Collision, Link, Mesh, Robot, Visual
 if TYPE_CHECKING:
     from amr_description.model.meshes import TriangleMesh
 
-type FindFile = Callable[[str], Path]
+FindFile: TypeAlias = Callable[[str], Path]
 """The file that a URI or path means, whether it is there or not; AmrError when none is meant."""
 
 # MuJoCo's own format, which nothing else reads.

@@ -30,7 +30,7 @@ from pathlib import Path
 import re
 from stat import S_ISREG
 import struct
-from typing import Any
+from typing import Any, TypeAlias
 import warnings
 
 import numpy as np
@@ -161,7 +161,7 @@ def stl_bytes(mesh: TriangleMesh) -> bytes:
     return bytes(80) + struct.pack('<I', len(records)) + records.tobytes()
 
 
-type _Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
+_Arrays: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 def _read_stl(data: bytes, path: Path) -> _Arrays:

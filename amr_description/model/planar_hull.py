@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Convex hulls in the plane, and bodies seen from above."""
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
 _MANY, _DIRECTIONS = 500, 32
 
-type PlanarPoints = NDArray[np.float64]
+PlanarPoints: TypeAlias = NDArray[np.float64]
 """(n, 2)"""
-type Points = NDArray[np.float64]
+Points: TypeAlias = NDArray[np.float64]
 """(n, 3), z up"""
 
 

@@ -10,11 +10,14 @@ its line of the file.
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import TypeAlias, TypeVar
 
 from amr_description.errors import DescriptionError
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.hardware_info import HardwareInfo, Mimic as Mimic
 from amr_description.text import quote, quote_all
+
+Part = TypeVar('Part')
 
 WORLD_LINK = 'world'
 """A robot whose root has this name is fixed to the world."""
@@ -61,7 +64,7 @@ class Mesh:
     scale: Vector = (1.0, 1.0, 1.0)
 
 
-type Geometry = Box | Cylinder | Sphere | Mesh
+Geometry: TypeAlias = Box | Cylinder | Sphere | Mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,7 +308,7 @@ def held_without_commands(robot: Robot) -> tuple[str, ...]:
     )
 
 
-def _lookup[Part](parts: dict[str, Part], name: str, kind: str, source: str) -> Part:
+def _lookup(parts: dict[str, Part], name: str, kind: str, source: str) -> Part:
     if name not in parts:
         known = quote_all([*reversed(parts)])
         raise DescriptionError(f'{source}: there is no {kind} {quote(name)}; there are: {known}')

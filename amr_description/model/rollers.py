@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 import math
 
-from amr_description.model.frames import cross, rotate, Vector
+from amr_description.model.frames import cross, dot, rotate, Vector
 from amr_description.model.gazebo_physics import GazeboLink, GazeboPhysics
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Robot
@@ -83,7 +83,7 @@ def roller_angle(axle: Vector, direction: Vector) -> float | None:
     if length < _SHORT or math.hypot(*direction[:2]) < _SHORT:
         return None
     aside = cross(_UP, ahead)
-    return math.atan2(math.sumprod(direction, aside), math.sumprod(direction, ahead))
+    return math.atan2(dot(direction, aside), dot(direction, ahead))
 
 
 def _has_rollers(link: GazeboLink) -> bool:

@@ -13,6 +13,7 @@ absolute if it begins with ``/``; '' is a topic that is not published.
 
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform
@@ -24,7 +25,7 @@ _CAMERA_INFO = 'sensor_msgs/msg/CameraInfo'
 _IMAGE = 'sensor_msgs/msg/Image'
 _POINTS = 'sensor_msgs/msg/PointCloud2'
 
-type Topics = tuple[tuple[str, str], ...]
+Topics: TypeAlias = tuple[tuple[str, str], ...]
 """(topic, type of its messages) of those that a sensor publishes."""
 
 
@@ -209,7 +210,7 @@ class ContactSensor:
         return _published((self.topic, self.message))
 
 
-type WorldSensor = Lidar | Camera | ContactSensor
+WorldSensor: TypeAlias = Lidar | Camera | ContactSensor
 
 
 @dataclass(frozen=True, slots=True)

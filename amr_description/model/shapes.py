@@ -14,11 +14,13 @@ its points is moved towards the origin until it encloses it, or cannot get there
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import math
+from operator import mul
+from typing import TypeAlias
 
 from amr_description.model.frames import (
     conjugate,
     cross,
-    Matrix3,
+    dot,
     matrix_from_quaternion,
     rotate,
     Transform,
@@ -30,13 +32,13 @@ from amr_description.model.robot import Box, Collision, Cylinder, Inertia, Mesh,
 # Bodies that only graze each other may never end the search; they count as separate.
 _MOST_STEPS = 64
 _ZERO = 1e-18
-type Support = Callable[[Vector], Vector]
+Support: TypeAlias = Callable[[Vector], Vector]
 """Direction -> the farthest point of the Minkowski difference in that direction."""
 # m; within them no product of sizes leaves the range of floats.
 _SMALLEST, _LARGEST = 1e-6, 1e6
 REACH_OF_A_MESH = 0.5
 """m: the assumed radius of a collision mesh, which is not read here."""
-type Primitive = Box | Cylinder | Sphere
+Primitive: TypeAlias = Box | Cylinder | Sphere
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +159,7 @@ def moments_of_solids(solids: Sequence[Solid], mass: float) -> Vector:
     density = mass / math.fsum(volumes)
     parts = [density * each for each in volumes]
     centres = [solid.pose.translation for solid in solids]
-    middle = [math.sumprod(parts, [c[axis] for c in centres]) / mass for axis in range(3)]
+    middle = [math.fsum(map(mul, parts, [c[axis] for c in centres])) / mass for axis in range(3)]
     total = [0.0, 0.0, 0.0]
     for solid, part in zip(solids, parts, strict=True):
         a, b, c = solid_moments(solid.shape, part)
@@ -170,13 +172,11 @@ def moments_of_solids(solids: Sequence[Solid], mass: float) -> Vector:
 
 def moments_along_axes(inertia: Inertia, pose: Transform) -> Vector:
     """Return the moments about the axes of the frame of ``pose``: the diagonal of R I Rᵀ."""
-    matrix: Matrix3 = (
-        (inertia.ixx, inertia.ixy, inertia.ixz),
-        (inertia.ixy, inertia.iyy, inertia.iyz),
-        (inertia.ixz, inertia.iyz, inertia.izz),
-    )
+    a = (inertia.ixx, inertia.ixy, inertia.ixz)
+    b = (inertia.ixy, inertia.iyy, inertia.iyz)
+    c = (inertia.ixz, inertia.iyz, inertia.izz)
     rows = matrix_from_quaternion(pose.rotation)
-    x, y, z = (math.sumprod(row, [math.sumprod(line, row) for line in matrix]) for row in rows)
+    x, y, z = (dot(row, (dot(a, row), dot(b, row), dot(c, row))) for row in rows)
     return (x, y, z)
 
 
@@ -225,10 +225,10 @@ def have_common_point(support: Support) -> bool:
     simplex = [support((1.0, 0.0, 0.0))]
     direction = _opposite(simplex[0])
     for _ in range(_MOST_STEPS):
-        if _dot(direction, direction) < _ZERO:
+        if dot(direction, direction) < _ZERO:
             return True
         point = support(direction)
-        if _dot(point, direction) <= 0.0:
+        if dot(point, direction) <= 0.0:
             return False
         simplex.append(point)
         simplex, direction = _towards_origin(simplex)
@@ -253,7 +253,7 @@ def _towards_origin(simplex: list[Vector]) -> tuple[list[Vector], Vector]:
 
 def _from_line(a: Vector, b: Vector) -> tuple[list[Vector], Vector]:
     ab, ao = _minus(b, a), _opposite(a)
-    if _dot(ab, ao) > 0.0:
+    if dot(ab, ao) > 0.0:
         return [b, a], cross(cross(ab, ao), ab)
     return [a], ao
 
@@ -261,11 +261,11 @@ def _from_line(a: Vector, b: Vector) -> tuple[list[Vector], Vector]:
 def _from_triangle(a: Vector, b: Vector, c: Vector) -> tuple[list[Vector], Vector]:
     ab, ac, ao = _minus(b, a), _minus(c, a), _opposite(a)
     normal = cross(ab, ac)
-    if _dot(cross(normal, ac), ao) > 0.0:
-        return _from_line(a, c) if _dot(ac, ao) > 0.0 else _from_line(a, b)
-    if _dot(cross(ab, normal), ao) > 0.0:
+    if dot(cross(normal, ac), ao) > 0.0:
+        return _from_line(a, c) if dot(ac, ao) > 0.0 else _from_line(a, b)
+    if dot(cross(ab, normal), ao) > 0.0:
         return _from_line(a, b)
-    if _dot(normal, ao) > 0.0:
+    if dot(normal, ao) > 0.0:
         return [c, b, a], normal
     return [b, c, a], _opposite(normal)
 
@@ -273,13 +273,9 @@ def _from_triangle(a: Vector, b: Vector, c: Vector) -> tuple[list[Vector], Vecto
 def _from_tetrahedron(a: Vector, b: Vector, c: Vector, d: Vector) -> tuple[list[Vector], Vector]:
     ao = _opposite(a)
     for p, q in ((b, c), (c, d), (d, b)):
-        if _dot(cross(_minus(p, a), _minus(q, a)), ao) > 0.0:
+        if dot(cross(_minus(p, a), _minus(q, a)), ao) > 0.0:
             return _from_triangle(a, p, q)
     return [d, c, b, a], (0.0, 0.0, 0.0)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def _minus(a: Vector, b: Vector) -> Vector:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 import math
 
-from amr_description.model.frames import rotate, Transform, Vector
+from amr_description.model.frames import dot, rotate, Transform, Vector
 from amr_description.model.robot import Collision, Cylinder, Joint, JointType, Robot, Sphere
 
 # A shape counts as round about the axis when it is off by less than this: 1 mm, and 2.5 degrees.
@@ -81,10 +81,10 @@ def wheel_of(robot: Robot, joint: Joint) -> Wheel | None:
 def _is_round_about(collision: Collision, axis: Vector) -> bool:
     """Return whether the axis of the shape is that of the joint (through the link's origin)."""
     offset = collision.origin.translation
-    along = math.sumprod(offset, axis)
-    radial = math.sqrt(max(0.0, math.sumprod(offset, offset) - along * along))
+    along = dot(offset, axis)
+    radial = math.sqrt(max(0.0, dot(offset, offset) - along * along))
     if radial > _LARGEST_OFFSET:
         return False
     if isinstance(collision.geometry, Sphere):
         return True
-    return abs(math.sumprod(rotate(collision.origin.rotation, _Z), axis)) > _SMALLEST_COSINE
+    return abs(dot(rotate(collision.origin.rotation, _Z), axis)) > _SMALLEST_COSINE

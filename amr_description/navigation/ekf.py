@@ -25,13 +25,14 @@ from dataclasses import dataclass
 import enum
 import math
 import sys
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from amr_description.clock import NANOSECONDS
 
-type Array = NDArray[np.float64]
+Array: TypeAlias = NDArray[np.float64]
 
 STATE_SIZE = 15
 NO_THRESHOLD = sys.float_info.max

@@ -13,6 +13,7 @@ axes x, y, z are roll, pitch, yaw, rad; covariances are those of ROS messages.
 """
 
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +41,7 @@ from amr_description.navigation.ekf import (
     VELOCITY,
 )
 
-type Mask = NDArray[np.bool_]
+Mask: TypeAlias = NDArray[np.bool_]
 
 OUT_OF_PLANE = (
     Member.Z,

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 import math
 import re
+from typing import TypeAlias
 
 import numpy as np
 
@@ -36,7 +37,7 @@ from amr_description.navigation.ekf_estimator import Timing
 from amr_description.navigation.ekf_measurement import Channel, Mask
 from amr_description.text import closest_match
 
-type Value = bool | int | float | str | list[bool] | list[float]
+Value: TypeAlias = bool | int | float | str | list[bool] | list[float]
 
 
 @dataclass(frozen=True, slots=True)

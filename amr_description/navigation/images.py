@@ -10,6 +10,7 @@ BMP and JPEG files, which nav2_map_server reads too, are not: their message says
 
 from dataclasses import dataclass
 import struct
+from typing import TypeAlias
 import zlib
 
 import numpy as np
@@ -17,8 +18,8 @@ from numpy.typing import NDArray
 
 from amr_description.errors import MapDataError
 
-type Floats = NDArray[np.float64]
-type Bytes = NDArray[np.uint8]
+Floats: TypeAlias = NDArray[np.float64]
+Bytes: TypeAlias = NDArray[np.uint8]
 
 MAX_PIXELS = 1 << 28
 """An image of more is refused."""

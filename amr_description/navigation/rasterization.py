@@ -8,13 +8,14 @@ Lengths are in cells here: cell [row, column] is the square from (column, row) t
 """
 
 from collections.abc import Iterable
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-type Points = NDArray[np.float64]
+Points: TypeAlias = NDArray[np.float64]
 """(n, 2): x and y of the corners of a convex shape, in cells."""
-type Mask = NDArray[np.bool_]
+Mask: TypeAlias = NDArray[np.bool_]
 """(height, width)"""
 
 TOUCH = 1e-5

@@ -17,6 +17,7 @@ Real-time correlative scan matching, ICRA 2009).
 
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +26,7 @@ from amr_description.navigation.distance_field import distances
 from amr_description.navigation.grid import OccupancyGrid
 from amr_description.navigation.pose import Pose, wrapped
 
-type Array = NDArray[np.float64]
+Array: TypeAlias = NDArray[np.float64]
 
 _WIDTHS = (0.5, 0.2, 0.1)
 """m: at these distances a ray's weight has fallen to a quarter, from step to step."""

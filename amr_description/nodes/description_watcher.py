@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 import sys
-from typing import Any
+from typing import Any, TypeAlias
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -35,7 +35,7 @@ from amr_description.ros.service_calls import ServiceReadiness
 _PERIOD = 0.3
 """s between two looks at the files."""
 
-type _Saved = tuple[int, int, int] | None
+_Saved: TypeAlias = tuple[int, int, int] | None
 """Of a file: inode, size, and when it was saved, ns; None: it is not there."""
 
 

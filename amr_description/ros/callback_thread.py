@@ -10,7 +10,7 @@ thread of the process has the interpreter's lock. Here a message takes 0.1 ms.
 
 from collections.abc import Callable, Mapping
 import threading
-from typing import Any
+from typing import Any, TypeAlias
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -20,7 +20,7 @@ from amr_description.ros.polled_topic import NeverCalled
 from amr_description.ros.rclpy_internals import SubscriptionWaiter, take_with_info
 from amr_description.streams import print_traceback
 
-type Callback = Callable[[Any, Mapping[str, int]], object]
+Callback: TypeAlias = Callable[[Any, Mapping[str, int]], object]
 """Called with a message, and what rclpy tells of it: its number, its stamps."""
 
 

@@ -18,6 +18,7 @@ This module imports no rclpy.
 
 from dataclasses import dataclass, field
 import struct
+from typing import TypeAlias
 
 from amr_description.clock import NANOSECONDS
 
@@ -26,7 +27,7 @@ _POSE_COVARIANCE = 36
 _ORDERS = tuple((each, struct.Struct(f'{each}I'), struct.Struct(f'{each}iI')) for each in '><')
 """By the second byte: how numbers are written, with the structs of a length and of a time."""
 
-type Motion = tuple[float, ...]
+Motion: TypeAlias = tuple[float, ...]
 """x y z qx qy qz qw of a pose, linear x, angular z, linear y: m, m/s, rad/s, m/s."""
 
 

@@ -14,7 +14,7 @@ This module imports no rclpy.
 from collections.abc import Sequence
 import re
 import struct
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.errors import AmrError
 from amr_description.ros.cdr_cursor import BEGIN, Cursor, ORDERS
@@ -27,7 +27,7 @@ _STEP = re.compile(r'\.?([A-Za-z]\w*)|\[(\d{1,9})\]')
 _MOST_SHAPES = 4
 """Of messages that take turns, such as those of several publishers of ``/tf``."""
 
-type Wanted = dict[str | int, Wanted] | int
+Wanted: TypeAlias = dict[str | int, 'Wanted'] | int
 """By field or index: what is wanted below it; in the end: which value it is."""
 
 

@@ -9,6 +9,7 @@ is for the caller to check.
 """
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -22,7 +23,7 @@ _VECTOR = 3
 _MOST_CONTACTS = 256
 """Contacts of a message that are read, and points of each."""
 
-type Array = np.ndarray
+Array: TypeAlias = np.ndarray
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ This module imports no rclpy.
 from dataclasses import dataclass
 from functools import cache
 import importlib
-from typing import Any
+from typing import Any, TypeAlias
 
 from rosidl_parser.definition import (
     AbstractNestedType,
@@ -43,9 +43,8 @@ CODES = {
 """Of ``struct``, by rclpy's name of the type."""
 _SIZES = {'?': 1, 'B': 1, 'b': 1, 'h': 2, 'H': 2, 'i': 4, 'I': 4, 'q': 8, 'Q': 8, 'f': 4, 'd': 8}
 
-type Advance = tuple[int, ...]
+Advance: TypeAlias = tuple[int, ...]
 """Bytes from where a part may begin to behind it, by where that is, modulo 8."""
-type Layout = Number | Text | Group | Many
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,10 +92,10 @@ class Group:
     """A message: its type, its fields in their order, and what that makes (:data:`Advance`)."""
 
     name: str
-    fields: tuple[tuple[str, Layout], ...]
+    fields: tuple[tuple[str, 'Layout'], ...]
     advance: Advance | None
 
-    def field(self, name: str) -> Layout | None:
+    def field(self, name: str) -> 'Layout | None':
         """Return a field; None: there is none of that name."""
         return dict(self.fields).get(name)
 
@@ -105,9 +104,12 @@ class Group:
 class Many:
     """An array of ``count`` elements; None: a sequence, whose length precedes it."""
 
-    element: Layout
+    element: 'Layout'
     count: int | None
     advance: Advance | None
+
+
+Layout: TypeAlias = Number | Text | Group | Many
 
 
 _HIDDEN = Number('B', 'uint8')

@@ -5,7 +5,7 @@
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from copy import copy
 import dataclasses
-from typing import Any
+from typing import Any, TypeVar
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
@@ -28,6 +28,8 @@ from amr_description.ros.rclpy_internals import (
     set_parameter_override,
 )
 
+Table = TypeVar('Table')
+
 _ARRAYS = {
     'string_array': Parameter.Type.STRING_ARRAY,
     'double_array': Parameter.Type.DOUBLE_ARRAY,
@@ -43,7 +45,7 @@ PUBLISHER_POLICIES = (
 _NO_DEFAULTS: Mapping[str, Value] = {}
 
 
-def declare[Table](
+def declare(
     node: Node, table: type[Table], *, defaults: Mapping[str, Value] = _NO_DEFAULTS
 ) -> Table:
     """
@@ -121,7 +123,7 @@ def declare_overrides(node: Node) -> None:
             node.declare_parameter(name, given.value)
 
 
-def values[Table](
+def values(
     node: Node, table: type[Table], changed: Iterable[Parameter] = (), *, prefix: str = ''
 ) -> Table:
     """

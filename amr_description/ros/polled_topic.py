@@ -9,7 +9,7 @@ pictures a second needs of a topic of 1 kHz only the latest message; DDS drops t
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.clock import ROSClock
@@ -23,6 +23,8 @@ from amr_description.ros.rclpy_internals import (
     take_message,
     take_with_info,
 )
+
+Sample = TypeVar('Sample')
 
 
 class NumberedMessage(NamedTuple):
@@ -42,7 +44,7 @@ class NumberedMessage(NamedTuple):
     sent: int = 0
 
 
-class PolledTopic[Sample]:
+class PolledTopic(Generic[Sample]):
     """A subscription without a callback; made and destroyed on the ROS thread."""
 
     def __init__(

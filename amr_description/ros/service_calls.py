@@ -5,7 +5,7 @@
 from collections.abc import Callable
 import re
 import time
-from typing import Any, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING, TypeVar
 
 import rclpy
 from rclpy.client import Client
@@ -20,6 +20,8 @@ from amr_description.ros.wait_clock import WaitClock
 
 if TYPE_CHECKING:
     from rclpy.action import ActionClient
+
+Result = TypeVar('Result')
 
 _POLL = 0.05
 """s: how soon a change of the graph is seen; messages and responses are seen at once."""
@@ -123,7 +125,7 @@ def name_of_type(interface_type: type) -> str:
     return re.sub('(?<!^)(?=[A-Z])', '_', interface_type.__name__).lower()
 
 
-def wait_until[Result](
+def wait_until(
     node: Node,
     condition: Callable[[], Result | None],
     on_wait: Callable[[], object] = lambda: None,

@@ -10,7 +10,7 @@ The joints are bound once to views into MuJoCo's arrays. A read is then one slic
 from collections.abc import Callable, Sequence
 import math
 from operator import itemgetter
-from typing import Any
+from typing import Any, TypeAlias
 
 import mujoco
 import numpy as np
@@ -23,8 +23,8 @@ from amr_description.sim.actuator_modes import ActuatorMode, EffortReader, Robot
 from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name
 from amr_description.sim.engine import Engine
 
-type Reader = Callable[[], list[float]]
-type Writer = Callable[[Sequence[float]], None]
+Reader: TypeAlias = Callable[[], list[float]]
+Writer: TypeAlias = Callable[[Sequence[float]], None]
 
 _JOINT = mujoco.mjtObj.mjOBJ_JOINT
 _ACTUATOR = mujoco.mjtObj.mjOBJ_ACTUATOR

@@ -14,6 +14,7 @@ These parts keep their distances, which are computed once; nothing of them is ca
 
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ from amr_description.sim.rays import Floats, Hits, Mask, RayScene
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.sensor_schedule import noise_generator
 
-type Singles = NDArray[np.float32]
+Singles: TypeAlias = NDArray[np.float32]
 
 _FULL_CIRCLE_FROM = 6.10865
 """rad, 350°; see :func:`scan_angles`."""

@@ -12,6 +12,7 @@ mesh without thickness gets :data:`THICKNESS`, as its convex hull must have a vo
 from copy import deepcopy
 from functools import lru_cache
 from pathlib import Path
+from typing import TypeAlias
 
 from lxml import etree
 import mujoco
@@ -24,7 +25,7 @@ from amr_description.model.frames import Vector
 from amr_description.model.meshes import FORMATS, load_mesh, TriangleMesh
 from amr_description.sim.spawning import SpawnCode
 
-type Meshes = dict[str, TriangleMesh]
+Meshes: TypeAlias = dict[str, TriangleMesh]
 """Triangles by what stands in the spec for a file name."""
 
 THICKNESS = 0.001

@@ -14,6 +14,7 @@ moves: no robots, nothing on joints, no mocap bodies.
 
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -41,7 +42,7 @@ MOST_CELLS = 1 << 26
 
 _CORNERS = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
 
-type Extent = tuple[float, float, float, float]
+Extent: TypeAlias = tuple[float, float, float, float]
 """Lowest x, lowest y, highest x, highest y, m."""
 
 

@@ -21,7 +21,7 @@ from collections.abc import Callable, Collection, Sequence
 import copy
 from dataclasses import dataclass
 import math
-from typing import Self
+from typing import Self, TypeAlias
 
 import mujoco
 from mujoco.batch import Batch
@@ -30,8 +30,8 @@ from numpy.typing import NDArray
 
 from amr_description.sim.terrain import Terrain, terrains
 
-type Floats = NDArray[np.float64]
-type Mask = NDArray[np.int32]
+Floats: TypeAlias = NDArray[np.float64]
+Mask: TypeAlias = NDArray[np.int32]
 """Which geoms are met: a geom group for each, ``_SEEN`` or ``_UNSEEN``."""
 
 _SEEN, _UNSEEN = 0, 1

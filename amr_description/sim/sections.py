@@ -9,6 +9,7 @@ lie less than :data:`ROUNDNESS` inside of their true section.
 
 from dataclasses import dataclass
 import math
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -17,8 +18,8 @@ from numpy.typing import NDArray
 from amr_description.model.planar_hull import crossings, cut_between, planar_hull
 from amr_description.sim.terrain import field_mesh
 
-type Floats = NDArray[np.float64]
-type Triangles = NDArray[np.intp]
+Floats: TypeAlias = NDArray[np.float64]
+Triangles: TypeAlias = NDArray[np.intp]
 
 ROUNDNESS = 1e-4
 """m."""

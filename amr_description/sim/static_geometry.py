@@ -5,6 +5,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -12,7 +13,7 @@ import numpy as np
 from amr_description.model.frames import Quaternion, Vector, xyzw_from_wxyz
 
 _Type = mujoco.mjtGeom
-type Color = tuple[float, float, float, float]
+Color: TypeAlias = tuple[float, float, float, float]
 
 
 class ShapeKind(StrEnum):

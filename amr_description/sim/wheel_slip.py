@@ -13,7 +13,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from amr_description.model.frames import cross, Vector
+from amr_description.model.frames import cross, dot, Vector
 from amr_description.sim.engine import Engine
 from amr_description.sim.gazebo_physics import wheel_geom_name
 from amr_description.sim.robot_view import RobotView
@@ -107,17 +107,17 @@ class WheelSlipReader:
         if of_wheel not in self._wheel_of:
             of_wheel, surface = surface, of_wheel
             normal = (axis[0], axis[1], axis[2])
-        slip: tuple[float, ...] = self._velocity_at(of_wheel, point)
+        slip = self._velocity_at(of_wheel, point)
         if self._body_of[surface]:
-            pairs = zip(slip, self._velocity_at(surface, point), strict=True)
-            slip = tuple([mine - its for mine, its in pairs])
+            its = self._velocity_at(surface, point)
+            slip = (slip[0] - its[0], slip[1] - its[1], slip[2] - its[2])
         x, y, z = self._axes[self._joint_ids[wheel]].tolist()
         forward = cross((x, y, z), normal)
         length = math.hypot(*forward)
         if length == 0.0:  # the wheel lies on its side
             return 0.0, 0.0
         sideways = cross(normal, forward)
-        return math.sumprod(slip, forward) / length, math.sumprod(slip, sideways) / length
+        return dot(slip, forward) / length, dot(slip, sideways) / length
 
     def _velocity_at(self, geom: int, point: Sequence[float]) -> Vector:
         """Return the velocity of a geom's material at a point of the world, m/s."""

@@ -18,6 +18,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 import hashlib
 import math
+from typing import TypeAlias
 
 import mujoco
 import numpy as np
@@ -31,7 +32,7 @@ from amr_description.sim.wheel_contact import add_wheel_contact, ContactSettings
 from amr_description.sim.world_file import apply_settings, WorldSettings
 from amr_description.text import quote_all
 
-type Contacts = Mapping[str, ContactSettings]
+Contacts: TypeAlias = Mapping[str, ContactSettings]
 """Name of a geom → its contact with static surfaces."""
 
 _HIGH = 100.0

@@ -9,13 +9,14 @@ centre of mass (``xfrc_applied``).
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
 from amr_description.model.frames import Vector
 from amr_description.sim.engine import Engine
 
-type BodyOf = Callable[[str, str], int]
+BodyOf: TypeAlias = Callable[[str, str], int]
 """Returns MuJoCo's body of (robot, link) at present; raises SimulationError."""
 
 

@@ -17,7 +17,7 @@ into every pytest of the environment.
 
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack
-from typing import Any
+from typing import Any, TypeAlias
 import warnings
 
 import pytest
@@ -30,7 +30,7 @@ from amr_description.testing.tracebacks import is_for_the_test, without_frames
 
 __tracebackhide__ = is_for_the_test
 
-type MakeSimulation = Callable[..., Simulation]
+MakeSimulation: TypeAlias = Callable[..., Simulation]
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

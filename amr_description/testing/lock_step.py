@@ -12,7 +12,7 @@ in every run.
 
 from collections.abc import Callable, Mapping
 import copy
-from typing import Any
+from typing import Any, TypeAlias
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import KeyValue
@@ -58,7 +58,7 @@ _MAX_STEPS = 1000
 _GUID_PREFIX = 12
 """Bytes of an endpoint's GUID that are its participant's (DDSI-RTPS 2.5, 9.3.1)."""
 
-type Condition = Callable[[], Any]
+Condition: TypeAlias = Callable[[], Any]
 
 
 class LockStep:

@@ -7,7 +7,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 import math
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 import warnings
 
 from controller_manager_msgs.srv import ListControllers
@@ -52,7 +52,7 @@ _BROADCASTER = 'JointStateBroadcaster'
 _STILL = 1e-3
 """m/s and rad/s; a slower robot counts as standing."""
 
-type TopicTypes = Sequence[tuple[str, Sequence[str]]]
+TopicTypes: TypeAlias = Sequence[tuple[str, Sequence[str]]]
 """Names of topics, and their types."""
 
 

@@ -9,9 +9,12 @@ but an :class:`~amr_description.errors.AmrError` is a fault of ours, and is show
 
 from collections.abc import Callable
 from functools import wraps
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from amr_description.errors import AmrError
+
+P = ParamSpec('P')
+Result = TypeVar('Result')
 
 
 def is_for_the_test(info: Any) -> bool:
@@ -22,7 +25,7 @@ def is_for_the_test(info: Any) -> bool:
 __tracebackhide__ = is_for_the_test
 
 
-def without_frames[**P, Result](function: Callable[P, Result]) -> Callable[P, Result]:
+def without_frames(function: Callable[P, Result]) -> Callable[P, Result]:
     """Drop the frames below from an AmrError: also those of modules that are not of tests."""
 
     @wraps(function)

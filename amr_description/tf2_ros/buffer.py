@@ -11,6 +11,7 @@ names them; errors say what is missing (see :mod:`~amr_description.tf2_ros.buffe
 from collections.abc import Callable, Mapping
 import threading
 import time as clocks
+from typing import TypeAlias
 
 from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import TransformStamped
@@ -34,7 +35,7 @@ from amr_description.tf2_ros.time_cache import StampedTransform
 _SLICE = 0.5  # s: how soon a wait notices that ROS was shut down
 _QUIET = 5.0  # s between two warnings with one key
 
-type _Lookup = Callable[[BufferCore], TransformStamped]
+_Lookup: TypeAlias = Callable[[BufferCore], TransformStamped]
 
 
 class Buffer:

@@ -9,6 +9,7 @@ time 0 asks for the latest.
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from amr_description.errors import ExtrapolationException
 from amr_description.model.frames import Transform
@@ -161,7 +162,7 @@ class TimeCache:
         return True
 
 
-type Frame = StaticCache | TimeCache
+Frame: TypeAlias = StaticCache | TimeCache
 
 
 def seconds(time: int) -> str:

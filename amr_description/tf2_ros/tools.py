@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import signal
 import sys
-from typing import Any
+from typing import Any, TypeVar
 
 from rclpy.duration import Duration
 from rclpy.node import Node
@@ -18,6 +18,8 @@ from amr_description.ros.runtime import argument_errors, program, ros, spinning
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.listener import TransformListener
 
+Listener = TypeVar('Listener', bound=TransformListener)
+
 
 def arguments_of(args: list[str] | None) -> list[str]:
     """Return the arguments of a program without those for ROS; None: those of the process."""
@@ -25,7 +27,7 @@ def arguments_of(args: list[str] | None) -> list[str]:
 
 
 @contextmanager
-def listening[Listener: TransformListener](
+def listening(
     name: str,
     args: list[str] | None,
     listener: Callable[..., Listener] = TransformListener,

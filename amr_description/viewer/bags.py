@@ -8,7 +8,7 @@ last ``/clock`` of the bag, if it has one, else the time at which its messages w
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +115,8 @@ class SeriesData:
     values: str  #: likewise; NaN: there is no such element
 
 
-type BagRequest = Seek | Playback | ReadSeries | ReadOverview | StartRecording | StopRecording
+BagRequest: TypeAlias = (
+    Seek | Playback | ReadSeries | ReadOverview | StartRecording | StopRecording
+)
 """What pages ask about bags."""
 BAG_REQUESTS = (Seek, Playback, ReadSeries, ReadOverview, StartRecording, StopRecording)

@@ -9,7 +9,7 @@ fields. A cloud whose fields or sizes do not fit its bytes is a ViewerError.
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, TypeAlias
 
 import numpy as np
 
@@ -23,7 +23,7 @@ _PACKED = {'rgb', 'rgba'}
 """Fields of 4 bytes: blue, green, red, alpha in the order of a little-endian number."""
 _INTENSITIES = ('intensity', 'intensities', 'reflectivity', 'i')
 
-type Colouring = Literal['rgb', 'intensity', 'none']
+Colouring: TypeAlias = Literal['rgb', 'intensity', 'none']
 
 
 class Field(Protocol):

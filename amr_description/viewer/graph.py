@@ -9,7 +9,7 @@ name belongs to the robot with the longest namespace that contains it.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Set as AbstractSet
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from amr_description.viewer.joint_groups import ACTIONS, is_joint_command, POSITIONS, TRAJECTORY
 from amr_description.viewer.navigation import Navigator
@@ -61,7 +61,7 @@ _COMPRESSED = '/compressed'
 _GOALS = '/_action/send_goal'
 _FEEDBACK = '/_action/feedback'
 
-type NamesAndTypes = Mapping[str, Iterable[str]]
+NamesAndTypes: TypeAlias = Mapping[str, Iterable[str]]
 """Name of a topic or service -> its types."""
 
 

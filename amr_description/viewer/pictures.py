@@ -8,7 +8,7 @@ itself is not believed: a size that does not fit its bytes is a ViewerError.
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -25,9 +25,9 @@ _QUALITY = 80
 _FAR = 40
 """Grey of the farthest point of a depth picture; 0 is where there is none, 255 the nearest."""
 
-type Pixels = np.ndarray
+Pixels: TypeAlias = np.ndarray
 """uint8, of the shape (rows, columns) or (rows, columns, 3 or 4)."""
-type PictureFormat = Literal['image/jpeg', 'image/png']
+PictureFormat: TypeAlias = Literal['image/jpeg', 'image/png']
 
 _COLOURS = {
     'rgb8': (3, 'RGB'),

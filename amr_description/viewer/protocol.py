@@ -18,7 +18,7 @@ from dataclasses import asdict, dataclass, fields
 from functools import cache
 import json
 import math
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeAlias
 
 from amr_description.model.frames import Quaternion, Vector
 from amr_description.viewer.bags import BagWriting, Playhead, Recording
@@ -28,7 +28,7 @@ from amr_description.viewer.navigation import GoalStatus, Navigator
 PROTOCOL = 'amr.v1'
 """The WebSocket's subprotocol: a page of another version is refused."""
 
-type Colour = tuple[float, float, float, float]
+Colour: TypeAlias = tuple[float, float, float, float]
 """Red, green, blue, alpha in 0..1."""
 
 
@@ -352,7 +352,7 @@ class Notice:
     text: str
 
 
-type Channel = Literal['sensor', 'message', 'values']
+Channel: TypeAlias = Literal['sensor', 'message', 'values']
 """How a topic is shown: as ``topics``, ``messages`` or ``fields`` of Watch say."""
 
 
@@ -525,7 +525,7 @@ class Unreadable:
     channel: Channel = 'sensor'
 
 
-type Head = (
+Head: TypeAlias = (
     Scan
     | Cloud
     | Picture
@@ -539,7 +539,7 @@ type Head = (
 )
 """The head of a sample."""
 
-type ServerMessage = (
+ServerMessage: TypeAlias = (
     Hello
     | Graph
     | Model

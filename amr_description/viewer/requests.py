@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, MISSING
 import json
 import math
-from typing import Any, ClassVar, get_args, Literal
+from typing import Any, ClassVar, get_args, Literal, TypeAlias
 
 from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
@@ -34,18 +34,18 @@ MOST_FIELDS = 256
 _HIGHEST_RATE = 100.0  # Hz
 _FASTEST = 100.0  # m/s or rad/s; no wheeled robot is faster
 
-type Speed = float
+Speed: TypeAlias = float
 """m/s or rad/s; its own type, because it has a limit: more than 100 either way is refused."""
-type Rate = float
+Rate: TypeAlias = float
 """Hz; its own type, because more than 100, or less than 0, is refused."""
-type Document = str
+Document: TypeAlias = str
 """A text of any lines."""
-type Part = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings']
+Part: TypeAlias = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings']
 """
 What the node collects only while a page shows it: a part of the states (wheels), or a message of
 the same name; ``rates`` are those of ``topics``.
 """
-PARTS: tuple[Part, ...] = get_args(Part.__value__)
+PARTS: tuple[Part, ...] = get_args(Part)
 
 
 @dataclass(frozen=True, slots=True)
@@ -373,11 +373,11 @@ class OverviewData:
     robots: tuple[RobotLayout, ...]
 
 
-type SimulatorRequest = (
+SimulatorRequest: TypeAlias = (
     Play | Step | ResetSimulation | SetFactor | Spawn | LoadWorld | Place | ResetEntity | Delete
 )
 """What a simulator is asked."""
-type Request = (
+Request: TypeAlias = (
     SimulatorRequest
     | Switch
     | DeactivateDrive
@@ -397,7 +397,7 @@ type Request = (
     | StopRecording
 )
 """Messages with an ``id``, which get a reply."""
-type ClientMessage = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request
+ClientMessage: TypeAlias = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request
 """A text frame from a page."""
 
 REQUESTS = (

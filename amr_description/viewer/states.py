@@ -27,6 +27,7 @@ for each robot of the layout
 
 from dataclasses import dataclass
 import struct
+from typing import TypeAlias
 
 import numpy as np
 
@@ -44,7 +45,7 @@ LAYOUTS = 2**16
 """Number of layout ids; they are reused after that."""
 _NUMBERS = 2**32
 
-type Floats = np.ndarray
+Floats: TypeAlias = np.ndarray
 """float32, a view into the frame: what is written here is sent."""
 
 

@@ -8,9 +8,9 @@ Pure; times of :class:`StandstillJudge` are s of any monotonic clock.
 
 from collections import deque
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
-type Holding = Literal['holds', 'braking', 'moves', 'unknown']
+Holding: TypeAlias = Literal['holds', 'braking', 'moves', 'unknown']
 """What becomes of a stop: see :class:`~amr_description.viewer.protocol.HeldRobot`."""
 
 _WINDOW = 0.4

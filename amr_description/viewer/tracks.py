@@ -5,8 +5,11 @@
 from array import array
 from bisect import bisect_right
 from collections.abc import Sequence
+from typing import Generic, TypeVar
 
 import numpy as np
+
+Value = TypeVar('Value')
 
 NOTHING = -1
 """The index of no row."""
@@ -90,7 +93,7 @@ class Track:
         return self._values[self._width * index : self._width * (index + 1)]
 
 
-class Changes[Value]:
+class Changes(Generic[Value]):
     """Values that change seldom; one that is equal to the last is left out."""
 
     def __init__(self) -> None:

@@ -11,7 +11,7 @@ names. All publish on one ``/tf``: each a tree of frames from ``robot1/odom`` do
 from collections.abc import Iterator
 import math
 import os
-from typing import Annotated
+from typing import Annotated, TypeAlias
 from xml.sax.saxutils import quoteattr
 
 from amr_description.bringup import (
@@ -51,7 +51,7 @@ from amr_description.model.urdf import parse
 _GAP = 1.0
 """m between two robots, whatever their headings."""
 
-type _Position = tuple[float, float]
+_Position: TypeAlias = tuple[float, float]
 
 
 def fleet(

@@ -6,11 +6,12 @@ from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 import platform
 import re
+from typing import TypeAlias
 
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.rules.qos import Fault, faults
 
-type Items = list[tuple[str, object]]
+Items: TypeAlias = list[tuple[str, object]]
 
 _VERSION = re.compile(r'<version[^>]*>\s*([^<\s]+)\s*</version>')
 _NARROWEST = 8

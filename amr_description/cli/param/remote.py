@@ -5,7 +5,7 @@
 from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 from rcl_interfaces.msg import (
     Parameter,
@@ -22,6 +22,8 @@ from amr_description.cli.param.values import advice, to_message, typed, Value
 from amr_description.cli.session import open_session, Session
 from amr_description.errors import AmrError
 from amr_description.text import did_you_mean, shorten
+
+Response = TypeVar('Response')
 
 
 @contextmanager
@@ -104,7 +106,7 @@ class RemoteParameters:
             ask_all(self._session, service, service_type, requests, changes=changes)
         )
 
-    def _answer[Response](self, responses: Mapping[str, Response]) -> Response:
+    def _answer(self, responses: Mapping[str, Response]) -> Response:
         if self.node not in responses:
             raise AmrError(no_answer(self.node))
         return responses[self.node]

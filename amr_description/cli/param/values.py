@@ -11,7 +11,7 @@ list of several types, is the string that it looks like.
 from collections.abc import Callable
 import json
 import sys
-from typing import Any
+from typing import Any, TypeAlias
 
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rclpy.parameter import Parameter
@@ -21,7 +21,7 @@ from amr_description.cli.yaml_input import read_value
 from amr_description.errors import AmrError, ParameterError
 from amr_description.text import shorten
 
-type Value = bool | int | float | str | list[Any] | None
+Value: TypeAlias = bool | int | float | str | list[Any] | None
 
 TYPE_NAMES = {
     ParameterType.PARAMETER_NOT_SET: 'not set',

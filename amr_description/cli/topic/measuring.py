@@ -5,7 +5,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ParamSpec
 
 from rclpy.clock import Clock, ClockType
 from rclpy.experimental import EventsExecutor
@@ -15,6 +15,8 @@ from amr_description.cli import graph
 from amr_description.cli.names import full_name
 from amr_description.cli.session import open_session, Session
 from amr_description.ros.message_types import message_type
+
+Arguments = ParamSpec('Arguments')
 
 _PERIOD = 1.0  # s
 
@@ -46,9 +48,7 @@ class MeasuredTopic:
         if self.failures:
             raise self.failures[0]
 
-    def _noting[**Arguments](
-        self, callback: Callable[Arguments, None]
-    ) -> Callable[Arguments, None]:
+    def _noting(self, callback: Callable[Arguments, None]) -> Callable[Arguments, None]:
         def call(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:
             try:
                 callback(*args, **kwargs)

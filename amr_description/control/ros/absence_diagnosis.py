@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 import time
+from typing import TypeVar
 
 from rcl_interfaces.msg import Log
 from rcl_interfaces.srv import GetParameters
@@ -24,6 +25,8 @@ from amr_description.ros.messages import nanoseconds
 from amr_description.ros.qos import CLOCK
 from amr_description.ros.rclpy_internals import NodeNameNonExistentError
 from amr_description.ros.service_calls import call, NoAnswerError, wait_until
+
+Message = TypeVar('Message')
 
 _ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DISCOVERY_TIME = 1.0
@@ -312,7 +315,7 @@ class _Matched(SubscriptionEventCallbacks):
 
 
 @contextmanager
-def _subscribed[Message](
+def _subscribed(
     node: Node,
     message_type: type[Message],
     topic: str,

@@ -9,7 +9,7 @@ Samples of the shipped controllers ↔ ROS messages, and the table of these conv
 from array import array
 from collections.abc import Callable, Mapping
 import math
-from typing import Any
+from typing import Any, TypeAlias, TypeVar
 
 from control_msgs.msg import (
     DynamicJointState,
@@ -45,6 +45,8 @@ from amr_description.control.samples import (
 )
 from amr_description.errors import ControllerError
 from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity, nanoseconds
+
+Function = TypeVar('Function')
 
 
 def twist_sample(message: TwistStamped) -> TwistSample:
@@ -240,7 +242,7 @@ def _fill_imu_constants(constants: ImuConstants, message: Imu) -> None:
     message.linear_acceleration_covariance = constants.linear_acceleration_covariance
 
 
-type _Key = tuple[type | None, str]
+_Key: TypeAlias = tuple[type | None, str]
 """Type of a port's samples, and of its messages."""
 
 _READERS: dict[_Key, Callable[[Any], Any]] = {
@@ -294,7 +296,7 @@ def _is_of_trajectories(port: Port) -> bool:
     return port.sample is not None and port.sample.__module__ == trajectory_samples.__name__
 
 
-def _find[Function](table: Mapping[_Key, Function], port: Port) -> Function:
+def _find(table: Mapping[_Key, Function], port: Port) -> Function:
     try:
         return table[port.sample, port.message]
     except KeyError:

@@ -33,7 +33,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 import math
 import struct
-from typing import Any
+from typing import Any, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.samples import (
@@ -48,10 +48,10 @@ from amr_description.ros.cdr_template import Template, template_of
 
 _NONE = object()
 
-type Encoder = Callable[[Any], Any]
+Encoder: TypeAlias = Callable[[Any], Any]
 """Makes of a sample what is published: a message, or the bytes of one."""
 
-type _Bind = Callable[[Template], Callable[[Any], bytes]]
+_Bind: TypeAlias = Callable[[Template], Callable[[Any], bytes]]
 
 
 def filling(fill: Callable[[Any, Any], None], message: Any) -> Encoder:

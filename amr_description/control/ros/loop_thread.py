@@ -17,6 +17,7 @@ from pathlib import Path
 import sys
 import threading
 from types import FrameType
+from typing import TypeVar
 
 from rclpy.executors import Executor
 from rclpy.task import Future
@@ -35,6 +36,8 @@ from amr_description.control.ros.loop_watchdog import (
 from amr_description.control.ros.realtime import set_time_slice, SHORT_SLICE
 from amr_description.ros.log_thread import LogThread
 from amr_description.streams import print_traceback
+
+Result = TypeVar('Result')
 
 _STOP_PERIOD = 0.05
 """s between two looks at a control thread that is to end."""
@@ -162,9 +165,7 @@ class LoopThread:
         self.failed = True
         self.on_failure()
 
-    def submit[Result](
-        self, call: Callable[[], Result], executor: Executor | None = None
-    ) -> Future:
+    def submit(self, call: Callable[[], Result], executor: Executor | None = None) -> Future:
         """
         Have the control thread make a call between two cycles.
 

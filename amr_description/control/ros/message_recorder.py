@@ -8,7 +8,7 @@ none can be lost on the way, and equal runs have equal recordings.
 """
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
@@ -17,7 +17,7 @@ from amr_description.control.contracts import Input
 from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.message_types import type_name
 
-type Sink = Callable[[bytes], None]
+Sink: TypeAlias = Callable[[bytes], None]
 """Takes a serialized message; on any thread."""
 
 

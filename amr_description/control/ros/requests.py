@@ -10,6 +10,7 @@ nothing here ever blocks the executor.
 from collections.abc import Callable, Iterable, Sequence
 import importlib
 import sys
+from typing import TypeVar
 
 from rclpy.node import Node
 from rclpy.task import Future
@@ -27,6 +28,8 @@ from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError, ControllerError
 from amr_description.model.robot import Robot
 from amr_description.ros.runtime import argument_errors, run_in_thread
+
+Result = TypeVar('Result')
 
 
 def reload_modules(names: Iterable[str]) -> None:
@@ -225,7 +228,7 @@ class ManagerRequests:
             )
         )
 
-    def _ask[Result](self, call: Callable[[], Result]) -> Future:
+    def _ask(self, call: Callable[[], Result]) -> Future:
         """Have the control thread make a call; see :meth:`LoopThread.submit`."""
         return self._context.loop_thread.submit(call, self.node.executor)
 

@@ -8,6 +8,7 @@ It takes the first one that can be used; until then it has no hardware and no se
 
 from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
+from typing import TypeAlias
 
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import Clock
@@ -26,7 +27,7 @@ from amr_description.ros.qos import LATCHED
 
 TOPIC = 'robot_description'
 
-type BringUp = Callable[[Robot, Sequence[HardwareInfo]], Awaitable[None]]
+BringUp: TypeAlias = Callable[[Robot, Sequence[HardwareInfo]], Awaitable[None]]
 """Brings a robot's hardware up; raises what keeps it from doing so."""
 
 _LOG_PERIOD = 1.0  # s of the steady clock, between two lines about what is waited for

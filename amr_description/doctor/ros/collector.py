@@ -10,7 +10,7 @@ messages are large, or many, it subscribes with best effort and a short queue.
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias
 
 from rclpy.node import Node
 
@@ -44,7 +44,7 @@ class Probe(Protocol):
         """Return the section as seen until now; at the end of the window, done or not."""
 
 
-type Spin = Callable[[Callable[[], bool], float], bool]
+Spin: TypeAlias = Callable[[Callable[[], bool], float], bool]
 """Runs the callbacks of the node until a function returns True, at most for so many s."""
 
 PROBES: dict[str, Callable[[], Probe]] = {

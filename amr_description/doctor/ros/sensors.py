@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 import math
 import time
-from typing import Any
+from typing import Any, TypeVar
 
 from nav_msgs.msg import Odometry
 import numpy as np
@@ -18,6 +18,8 @@ from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.shared import RobotTime
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds
+
+Seen = TypeVar('Seen')
 
 _TRUTH = 'ground_truth/odom'
 _MESSAGES: Mapping[str, Any] = {
@@ -137,7 +139,7 @@ class SensorsProbe:
             'age': self._time.age(nanoseconds(message.header.stamp), received),
         }
 
-    def _each[Seen](self, kind: Any, make: Callable[..., Seen]) -> Iterable[Seen]:
+    def _each(self, kind: Any, make: Callable[..., Seen]) -> Iterable[Seen]:
         for topic in self._topics.values():
             if topic.kind is kind and topic.last:
                 message, received = [*topic.last.values()][-1]

@@ -7,7 +7,7 @@ What the rules of the checker get: the description, and what it is checked again
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeAlias
 
 from lxml import etree
 
@@ -62,7 +62,7 @@ class DriveSettings:
         return Finding.warning(*self.location_of(parameter), f'{self.name}: {what}', **details)
 
 
-type FileExists = Callable[[str], bool]
+FileExists: TypeAlias = Callable[[str], bool]
 """Return whether the file of a URI or path exists. Raises AmrError: that is not known."""
 
 
@@ -151,4 +151,4 @@ class CheckContext:
         return Finding.warning(self.robot.source, line, what, **details)
 
 
-type Rule = Callable[[CheckContext], Iterator[Finding]]
+Rule: TypeAlias = Callable[[CheckContext], Iterator[Finding]]

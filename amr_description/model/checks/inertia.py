@@ -11,6 +11,7 @@ never moves and needs no mass.
 from collections.abc import Iterator, Sequence
 from itertools import permutations, product
 import math
+from typing import TypeAlias
 
 from amr_description.model.checks.axles import lying_flat
 from amr_description.model.checks.context import CheckContext
@@ -44,7 +45,7 @@ _TILTS = (-1e-3, 1e-3)
 _SIGNS = (-1.0, 1.0)
 # Limits the time for files with absurdly many shapes.
 _MOST_POINTS = 10_000
-type _Point = tuple[float, float]
+_Point: TypeAlias = tuple[float, float]
 # A hollow sphere has 5/3 of the moment of a solid one, a thin ring twice that of a disc, a heavy
 # core a fraction; typing errors (g or mm, a diameter for a radius) exceed this factor.
 _FACTOR = 3.0
@@ -427,7 +428,7 @@ def _distance_outside(point: _Point, hull: list[_Point]) -> float:
 
 def _distance_to_edge(point: _Point, a: _Point, b: _Point) -> float:
     along = (b[0] - a[0], b[1] - a[1])
-    square = math.sumprod(along, along)
-    to_point = (point[0] - a[0], point[1] - a[1])
-    share = min(1.0, max(0.0, math.sumprod(to_point, along) / square)) if square else 0.0
+    square = along[0] ** 2 + along[1] ** 2
+    reached = (point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]
+    share = min(1.0, max(0.0, reached / square)) if square else 0.0
     return math.dist(point, (a[0] + share * along[0], a[1] + share * along[1]))

@@ -3,6 +3,7 @@
 """Rules on visual and collision shapes: their sizes and colours, and whether they overlap."""
 
 from collections.abc import Iterator
+from typing import TypeAlias
 
 from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding, NO_SHAPE
@@ -136,7 +137,7 @@ def shapes_do_not_overlap(context: CheckContext) -> Iterator[Finding]:
             )
 
 
-type _Placed = tuple[Link, Solid]
+_Placed: TypeAlias = tuple[Link, Solid]
 
 
 def _placed_solids(context: CheckContext) -> list[_Placed]:

@@ -7,6 +7,7 @@ Knows no node: transforms and complaints go by callables, so that a test feeds i
 """
 
 from collections.abc import Callable, Sequence
+from typing import TypeAlias
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import (
@@ -56,9 +57,9 @@ from amr_description.navigation.ekf_measurement import (
 from amr_description.navigation.ekf_parameters import Input, Parameters
 from amr_description.ros.messages import nanoseconds, vector_of
 
-type Lookup = Callable[[str, str, int], Transform | None]
+Lookup: TypeAlias = Callable[[str, str, int], Transform | None]
 """(target frame, source frame, time in ns) → the pose of the source in the target."""
-type Complain = Callable[[str, str], object]
+Complain: TypeAlias = Callable[[str, str], object]
 """Told what is wrong with a topic: a key, and a text."""
 
 MESSAGE_TYPES = {

@@ -9,6 +9,7 @@ taken with an older transform, which would be wrong while the robot drives, nor 
 
 from collections import deque
 from collections.abc import Callable
+from typing import Generic, TypeVar
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.task import Future
@@ -16,8 +17,10 @@ from rclpy.time import Time
 
 from amr_description.tf2_ros.buffer import Buffer
 
+Item = TypeVar('Item')
 
-class TransformQueue[Item]:
+
+class TransformQueue(Generic[Item]):
     """
     A queue in front of a callback, which gets each item with its transform, in their order.
 

@@ -14,6 +14,7 @@ them.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 from xml.sax.saxutils import escape
 
 from amr_description.tf2_ros.frame_graph import facts, FrameRecord, label, tree_order
@@ -62,7 +63,7 @@ class Line:
     y2: float
 
 
-type Shape = Text | Box | Line
+Shape: TypeAlias = Text | Box | Line
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,7 @@ from pathlib import Path
 import re
 import threading
 import time as wall
+from typing import TypeAlias
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.publisher import Publisher
@@ -87,7 +88,7 @@ class _Latched:
     message: BagMessage
 
 
-type _Item = BagMessage | _Latched | TopicMetadata | _Jump
+_Item: TypeAlias = BagMessage | _Latched | TopicMetadata | _Jump
 
 
 class RunRecorder:

@@ -8,7 +8,7 @@ has the message and the code of a RequestError, or ``RESULT_OPERATION_FAILED``.
 """
 
 from collections.abc import Awaitable, Callable, Iterable
-from typing import Any
+from typing import Any, TypeAlias
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
@@ -20,7 +20,7 @@ from amr_description.errors import AmrError, RequestError
 from amr_description.ros.log_thread import log_error
 from amr_description.text import unwrap
 
-type Handler = Callable[[Any, Any], Awaitable[None]]
+Handler: TypeAlias = Callable[[Any, Any], Awaitable[None]]
 """``async (request, response)``, for services whose response has a ``result``."""
 
 

@@ -12,7 +12,7 @@ command), is asked for 80 % of what it reaches.
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, TypeAlias
 
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
@@ -50,7 +50,7 @@ _LONGEST_START, _LONGEST_STRETCH, _LONGEST_STOP = 10.0, 60.0, 10.0
 _STEERED = ('Ackermann', 'Bicycle', 'Tricycle', 'Steering')
 _SIDEWAYS = ('Mecanum', 'Omni', 'Planar')
 
-type Command = tuple[float, float, float]
+Command: TypeAlias = tuple[float, float, float]
 """Forward and to the left in m/s, turn to the left in rad/s."""
 
 

@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 import threading
 import time
+from typing import TypeAlias
 
 import numpy as np
 
@@ -33,7 +34,7 @@ _RATE_SPAN = 3 * NANOSECONDS
 _MOST_VALUES = 60_000
 """Of a series: a page keeps 65,536 one by one."""
 
-type _Key = tuple[Channel, str]
+_Key: TypeAlias = tuple[Channel, str]
 
 
 class BagSamples:

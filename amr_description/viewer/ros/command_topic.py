@@ -9,7 +9,7 @@ Created and destroyed on the ROS thread, polled on the server's thread.
 from collections import deque
 from collections.abc import Callable
 import math
-from typing import Any
+from typing import Any, TypeAlias
 
 from rclpy.node import Node
 
@@ -24,7 +24,7 @@ _WINDOW = 3.0
 _SILENT = 1.0
 """s without a command after which nobody commands."""
 
-type Twist = tuple[float, ...]
+Twist: TypeAlias = tuple[float, ...]
 """m/s ahead, rad/s to the left, m/s to the left."""
 
 NO_TWIST: Twist = (math.nan,) * 3

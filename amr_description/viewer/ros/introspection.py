@@ -7,6 +7,7 @@ Each is collected only while a page shows it, but for the last warnings. On the 
 """
 
 from collections.abc import Callable, Sequence, Set as AbstractSet
+from typing import TypeAlias
 
 from rclpy.node import Node
 
@@ -20,8 +21,8 @@ from amr_description.viewer.ros.transform_list import TransformList
 _EVERY = 3
 """Polls from one list of topics to the next: to make it takes 100 µs a topic."""
 
-type GraphMessage = Topics | Transforms | Log | Findings
-type Tell = Callable[[Part, GraphMessage], object]
+GraphMessage: TypeAlias = Topics | Transforms | Log | Findings
+Tell: TypeAlias = Callable[[Part, GraphMessage], object]
 
 
 class Introspection:

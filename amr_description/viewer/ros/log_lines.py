@@ -10,7 +10,7 @@ see :mod:`amr_description.launch_log`.
 
 from collections import deque
 import os
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from rcl_interfaces.msg import Log as LogMessage
 from rclpy.node import Node
@@ -30,7 +30,7 @@ _LONGEST = 4000
 """Characters of a line."""
 _WARNING = 30
 
-type Level = Literal['debug', 'info', 'warning', 'error', 'fatal']
+Level: TypeAlias = Literal['debug', 'info', 'warning', 'error', 'fatal']
 _LEVELS: tuple[tuple[int, Level], ...] = (
     (50, 'fatal'),
     (40, 'error'),

@@ -4,17 +4,20 @@
 
 import asyncio
 from collections.abc import Callable
+from typing import TypeVar
 
 from rclpy.executors import Executor
 
 from amr_description.errors import ViewerError
 from amr_description.text import shorten
 
+T = TypeVar('T')
+
 _TIMEOUT = 5.0
 """s"""
 
 
-async def on_ros_thread[T](executor: Executor, call: Callable[[], T]) -> T:
+async def on_ros_thread(executor: Executor, call: Callable[[], T]) -> T:
     """Return what ``call`` returned on the ROS thread. Raises ViewerError: it failed."""
     loop = asyncio.get_running_loop()
     done: asyncio.Future[T] = loop.create_future()

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 import math
 import threading
+from typing import TypeAlias
 
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
@@ -62,7 +63,7 @@ _MOST_LINES = 2000
 _LOG = 'rcl_interfaces/msg/Log'
 _CLOCK = 'rosgraph_msgs/msg/Clock'
 
-type Take = Callable[[int, bytes], None]
+Take: TypeAlias = Callable[[int, bytes], None]
 """Takes a message in: the time at which it was received, ns, and what it is on the wire."""
 
 

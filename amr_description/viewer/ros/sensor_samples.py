@@ -10,6 +10,7 @@ sample that says so in one line.
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 import math
+from typing import TypeAlias
 
 import numpy as np
 
@@ -68,8 +69,8 @@ _SHOWN_CONTACTS = 32
 _MOST_PLACES = 256
 """Points of contact that are sent."""
 
-type Parts = tuple[np.ndarray | bytes, ...]
-type Converter = Callable[[bytes, Origin], tuple[Head, Parts]]
+Parts: TypeAlias = tuple[np.ndarray | bytes, ...]
+Converter: TypeAlias = Callable[[bytes, Origin], tuple[Head, Parts]]
 """Makes a head, and what follows it, of a message."""
 
 

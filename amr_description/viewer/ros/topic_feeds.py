@@ -11,6 +11,7 @@ server's thread polls it.
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set as AbstractSet
 from dataclasses import dataclass
 import time
+from typing import TypeAlias
 
 from rclpy.node import Node
 
@@ -22,8 +23,8 @@ from amr_description.viewer.ros.sensors import KEPT, SensorFeed
 from amr_description.viewer.ros.source import Source, source_of
 from amr_description.viewer.samples import Sample
 
-type Feed = SensorFeed | MessageFeed | FieldFeed
-type ReceiveTime = Callable[[int], float]
+Feed: TypeAlias = SensorFeed | MessageFeed | FieldFeed
+ReceiveTime: TypeAlias = Callable[[int], float]
 """When something was received, system time, ns -> the time of the states then, s."""
 
 

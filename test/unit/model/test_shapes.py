@@ -8,7 +8,7 @@ import random
 import mujoco
 import pytest
 
-from amr_description.model.frames import Transform, wxyz_from_xyzw
+from amr_description.model.frames import dot, Transform, wxyz_from_xyzw
 from amr_description.model.robot import Box, Collision, Cylinder, Inertia, Mesh, Sphere
 from amr_description.model.shapes import (
     farthest,
@@ -96,11 +96,11 @@ def test_farthest_point_is_on_the_shape_and_none_is_farther(seed):
     chance = random.Random(seed)
     solid = Solid(some_shape(chance), random_pose(chance))
     direction = tuple(chance.gauss() for _ in range(3))
-    best = math.sumprod(farthest(solid, direction), direction)
+    best = dot(farthest(solid, direction), direction)
     x, y, z = half_sizes(solid.shape)
     for _ in range(50):
         other = farthest(solid, tuple(chance.gauss() for _ in range(3)))
-        assert math.sumprod(other, direction) <= best + 1e-12
+        assert dot(other, direction) <= best + 1e-12
         local = solid.pose.inverse().apply(other)
         assert all(abs(a) <= half + 1e-9 for a, half in zip(local, (x, y, z), strict=True))
 

@@ -18,7 +18,7 @@ Depths are larger than theirs where messages are counted, so that a busy machine
 
 from collections.abc import Callable
 import time
-from typing import Any
+from typing import Any, TypeAlias
 
 from nav_msgs.msg import OccupancyGrid, Odometry
 import numpy as np
@@ -89,7 +89,7 @@ _SILENCE = 1.0
 _LOOK_PERIOD = 0.25
 """s between two looks at the graph."""
 
-type _Info = dict[str, int]
+_Info: TypeAlias = dict[str, int]
 
 
 class Collector:

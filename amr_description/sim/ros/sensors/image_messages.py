@@ -8,7 +8,7 @@ Made of bytes, an image of 640 x 480 costs one copy; see :mod:`amr_description.r
 
 from collections.abc import Callable
 import struct
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2, PointField
@@ -18,7 +18,7 @@ from amr_description.model.sensors import Camera
 from amr_description.ros.cdr_template import template_of
 from amr_description.sim.cameras.lens import intrinsics_of
 
-type Encode = Callable[[int, Any], bytes]
+Encode: TypeAlias = Callable[[int, Any], bytes]
 """``(time in ns, array or bytes) ->`` a serialized message."""
 
 _STAMP = ('header.stamp',)

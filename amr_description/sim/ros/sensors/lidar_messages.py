@@ -8,7 +8,7 @@ intensities to a reader in another process take 10 µs of processor time, as a m
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
@@ -18,7 +18,7 @@ from amr_description.model.sensors import Lidar
 from amr_description.ros.cdr_template import template_of
 from amr_description.sim.lidar import ray_directions, Scan, scan_angles
 
-type ScanEncoder = Callable[[Scan], bytes]
+ScanEncoder: TypeAlias = Callable[[Scan], bytes]
 
 POINT = np.dtype(
     {
