@@ -31,7 +31,9 @@ def test_its_lines_do_what_it_says(folder):
         assert 'listener' not in printed
         assert '-r __ns:=/right' in shell.run('ros2 launch listener.launch.xml')
         shell.start('ros2 launch pair.launch.py side')
-        shell.see(r'demo_nodes_py talker \(demo_talker\), demo_nodes_py listener \(demo_listener\)')
+        shell.see(
+            r'demo_nodes_py talker \(demo_talker\), demo_nodes_py listener \(demo_listener\)'
+        )
         shell.see(r'\[launch.user\]: talks on the right')
         shell.see(r'\[right.listener\]: I heard: \[Hello World: \d+\]')
         shell.interrupt()
