@@ -3,21 +3,20 @@
 """
 ROS packages, their executables and files: the ament index of ``AMENT_PREFIX_PATH``, and URIs.
 
-A package is found in the first prefix whose index names it, as in ``ament_index_python``. What
-cannot be found raises :class:`~amr_description.errors.ResourceError`.
+A package is found in the first prefix whose index names it, as in ``ament_index_python``, which is
+not needed here: the simulation runs where no ROS is. What cannot be found raises
+:class:`~amr_description.errors.ResourceError`.
 
 A workspace may have a package of this one's name, as the tutorial makes it. It overlays this one:
 its executables and files are found first, and what it lacks is found here.
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 import os
 from pathlib import Path
 import re
 from urllib.parse import unquote, urlsplit
-
-from ament_index_python import get_package_prefix, get_packages_with_prefixes
-from ament_index_python.packages import PackageNotFoundError
 
 from amr_description.errors import ResourceError
 from amr_description.text import did_you_mean, shorten, suggestion
@@ -25,6 +24,7 @@ from amr_description.text import did_you_mean, shorten, suggestion
 OWN_PACKAGE = 'amr_description'
 _OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
 _INDEX = 'share/ament_index/resource_index/packages'
+_NAME = re.compile(r'[a-zA-Z0-9][a-zA-Z0-9_-]+')  # REP 127, with what it exempts
 _SOURCE_TREE = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
 MODEL_VARIABLES = (
@@ -41,9 +41,12 @@ def prefixes() -> list[Path]:
 
 def packages() -> dict[str, Path]:
     """Return the prefix of each installed package, sorted by the package's name."""
-    if not prefixes():
-        return {}
-    return {name: Path(prefix) for name, prefix in sorted(get_packages_with_prefixes().items())}
+    found: dict[str, Path] = {}
+    for prefix in reversed(prefixes()):  # the first one counts
+        with suppress(OSError):  # no folder, or none of an index
+            names = (each.name for each in (prefix / _INDEX).iterdir() if each.is_file())
+            found |= dict.fromkeys((name for name in names if not name.startswith('.')), prefix)
+    return dict(sorted(found.items()))
 
 
 def is_installed(package: str) -> bool:
@@ -62,14 +65,15 @@ def package_prefix(package: str) -> Path:
             f"Package '{shorten(package)}' not found: {_VARIABLE} is empty; source "
             'scripts/activate or the setup.bash of the workspace first'
         )
-    try:
-        return Path(get_package_prefix(package))
-    except (PackageNotFoundError, OSError, ValueError) as error:
-        searched = ', '.join(map(str, prefixes()))
-        raise ResourceError(
-            f"Package '{shorten(package)}' not found, searching: {searched}"
-            + did_you_mean(package, get_packages_with_prefixes())
-        ) from error
+    with suppress(OSError, ValueError):  # a name that no file can have
+        for prefix in prefixes() if _NAME.fullmatch(package) else ():
+            if (prefix / _INDEX / package).is_file():
+                return prefix
+    searched = ', '.join(map(str, prefixes()))
+    raise ResourceError(
+        f"Package '{shorten(package)}' not found, searching: {searched}"
+        + did_you_mean(package, packages())
+    )
 
 
 def package_share(package: str) -> Path:

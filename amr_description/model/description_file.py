@@ -20,9 +20,7 @@ from typing import Any
 from urllib.parse import parse_qsl
 from xml.parsers.expat import ErrorString, ExpatError
 
-from ament_index_python.packages import PackageNotFoundError
-
-from amr_description.ament_index import packages, resolve_uri
+from amr_description.ament_index import packages, prefixes, resolve_uri
 from amr_description.errors import AmrError, DescriptionError, UsageError
 from amr_description.model.findings import Finding
 from amr_description.model.mesh_paths import with_absolute_paths
@@ -201,8 +199,10 @@ def _words(error: BaseException) -> Iterator[str]:
     """Yield the texts of an error and of those that xacro wrapped in it."""
     import xacro
 
-    if isinstance(error, PackageNotFoundError):
-        yield _missing_package(str(error.args[0] if error.args else ''))
+    from amr_description.model.xacro_lines import UnknownPackageError
+
+    if isinstance(error, UnknownPackageError):
+        yield _missing_package(error.package)
         return
     if not isinstance(error, xacro.XacroException):
         kind = type(error)
@@ -262,10 +262,13 @@ def _hint(error: BaseException) -> str:
     return ''
 
 
-def _missing_package(words: str) -> str:
-    """Return what ament says of a package that it does not find, and what would do."""
-    match = re.search(r"'([^']+)'", words)
-    name = match[1] if match else words
+def _missing_package(name: str) -> str:
+    """Return that there is no such package, and what would do."""
+    if not prefixes():
+        return (
+            f"package '{name}' not found: AMENT_PREFIX_PATH is empty; source install/setup.bash "
+            'of its workspace, or have the package lie beside the file, with its package.xml'
+        )
     near = closest_match(name, packages(), 0.8)
     return (
         f"package '{name}' not found in AMENT_PREFIX_PATH; build it and source install/setup.bash "

@@ -16,13 +16,22 @@ from typing import Any
 from xml.dom import minidom, UserDataHandler
 from xml.parsers.expat import ExpatError, ParserCreate
 
-from amr_description.ament_index import package_around
+from amr_description.ament_index import package_around, package_prefix
+from amr_description.errors import ResourceError
 from amr_description.model.origins import Origin
 
 _KEY = 'amr_description.origin'
 _MACRO = 'xacro:macro'
 # The names of elements among the local variables of xacro's functions.
 _ELEMENTS = ('node', 'elt', 'tag')
+
+
+class UnknownPackageError(LookupError):
+    """``$(find package)`` names a package that is not there."""
+
+    def __init__(self, package: str) -> None:
+        super().__init__(package)
+        self.package = package
 
 
 def expanded(path: str, mappings: Mapping[str, str]) -> tuple[str, dict[int, Origin]]:
@@ -78,18 +87,21 @@ def known_names(error: BaseException) -> tuple[set[str], set[str], set[str]]:
 
 @contextmanager
 def _packages_around(folder: Path) -> Iterator[None]:
-    """Have ``$(find package)`` find packages that are not installed in the sources around."""
+    """
+    Have ``$(find package)`` find packages by our index, which needs no ROS, and those that are not
+    installed in the sources around.
+    """
     from xacro import substitution_args
 
     find = substitution_args._eval_find
 
     def found(package: str) -> str:
         try:
-            return str(find(package))
-        except (LookupError, OSError):  # not there, or no prefix at all
+            return str(package_prefix(package) / 'share' / package)
+        except ResourceError as error:
             around = package_around(package, folder)
             if around is None:
-                raise
+                raise UnknownPackageError(package) from error
             return str(around)
 
     substitution_args._eval_find = found
