@@ -36,6 +36,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``stand_ins.py``        packages of ROS that are not installed, and what is in their place
 ``registry.py``         names of plugins → ``module:attribute``, imported when used
 ``argument_types.py``   numbers of command lines, for argparse
+``ros_arguments.py``    ROS arguments: ``--ros-args -r from:=to -p name:=value``
 ``ament_index.py``      packages, executables, ``package://`` and ``file://``
 ``clock.py``            nanoseconds; messages of before a jump back in time
 ``text.py``             one line, quoted, shortened; the closest known word

@@ -28,10 +28,10 @@ from amr_description.navigation.contract.report import as_json, as_text
 from amr_description.navigation.contract.rules import examine
 from amr_description.navigation.ros.contract.collector import Collector
 from amr_description.navigation.ros.contract.driving import Drive, RivalWatch
-from amr_description.ros.arguments import other_arguments
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node, wait_until
 from amr_description.ros.signals import StopRequested, StopRequests
+from amr_description.ros_arguments import other_arguments
 
 _REPORT_PERIOD = 5.0
 """s between two lines that say what is waited for."""

@@ -22,11 +22,11 @@ from amr_description.errors import AmrError, UsageError
 from amr_description.model.description_file import description_at, mappings_of
 from amr_description.model.fixing import fixed_to_world
 from amr_description.model.frames import Transform
-from amr_description.ros.arguments import other_arguments, ros_arguments
 from amr_description.ros.messages import fill_pose
 from amr_description.ros.qos import LATCHED, SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors, program, ros
 from amr_description.ros.service_calls import ask_until_answered, call_with, wait_until
+from amr_description.ros_arguments import other_arguments, ros_arguments
 from amr_description.text import truth
 
 _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'

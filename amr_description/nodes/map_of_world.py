@@ -28,7 +28,7 @@ from amr_description.errors import AmrError
 from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED
 from amr_description.navigation.map_files import save_map
 from amr_description.parameters import parameter
-from amr_description.ros.arguments import other_arguments
+from amr_description.ros_arguments import other_arguments
 from amr_description.sim.occupancy import map_of_world, MapSettings
 
 _DEFAULTS = MapSettings()

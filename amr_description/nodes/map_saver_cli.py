@@ -36,11 +36,11 @@ from amr_description.navigation.map_files import (
 )
 from amr_description.navigation.ros.messages import grid_of
 from amr_description.parameters import parameter
-from amr_description.ros.arguments import other_arguments
 from amr_description.ros.parameters import declare
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import argument_errors, program, ros
 from amr_description.ros.service_calls import wait_until
+from amr_description.ros_arguments import other_arguments
 
 USAGE = """\
 Usage:

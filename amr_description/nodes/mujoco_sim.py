@@ -26,11 +26,11 @@ from rclpy.node import Node
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import SimulationError
-from amr_description.ros.arguments import inherited, ros_arguments
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.ros.service_calls import wait_for_clients
+from amr_description.ros_arguments import inherited, ros_arguments
 from amr_description.sim.ros import (
     entity_services,
     simulation_services,

@@ -46,13 +46,13 @@ from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareStartError, ParameterError
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
-from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.node_help import print_help
 from amr_description.ros.qos import CLOCK
 from amr_description.ros.runtime import argument_errors, end_wait, program, ros, serve
+from amr_description.ros_arguments import ros_arguments
 from amr_description.streams import never_wait_for_stderr
 
 _OPTIONS = (

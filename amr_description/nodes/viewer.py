@@ -57,11 +57,11 @@ from amr_description.errors import ParameterError
 from amr_description.nodes.robot_state_publisher import RobotStatePublisher
 from amr_description.parameter_files import load_yaml
 from amr_description.parameters import build, parameter
-from amr_description.ros.arguments import other_arguments, parameters_in
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.ros.signals import StopRequests
+from amr_description.ros_arguments import other_arguments, parameters_in
 from amr_description.viewer.backend import Backend
 from amr_description.viewer.ros.backend import GraphBackend
 from amr_description.viewer.ros.bag_backend import BagBackend

@@ -14,7 +14,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``rclpy_internals.py``    the private members of rclpy that are used, and nothing else uses
 ``rcl_structures.py``     structures of rcl, for those who call it by ctypes
 
-``arguments.py``          ROS arguments of a command line; a robot description named there
+``arguments.py``          the robot description that a command line names, beside its ROS arguments
 ``node_help.py``          ``--help`` of an executable that has no other options
 ``parameters.py``         parameters of a node from a table of ``amr_description.parameters``
 ``log_thread.py``         logging that never blocks the caller

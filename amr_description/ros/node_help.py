@@ -8,7 +8,7 @@ from textwrap import fill
 
 from amr_description import streams
 from amr_description.parameters import Spec, specs
-from amr_description.ros.arguments import other_arguments
+from amr_description.ros_arguments import other_arguments
 
 DESCRIPTION = '[FILE [NAME:=VALUE ...]]'
 """How a robot description is given: :func:`amr_description.ros.arguments.split_arguments`."""

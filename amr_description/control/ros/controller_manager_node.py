@@ -42,9 +42,9 @@ from amr_description.hardware import HARDWARE
 from amr_description.hardware.in_simulator import class_in_simulator
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
-from amr_description.ros.arguments import inherited
 from amr_description.ros.parameters import add_parameter_event_qos_overrides
 from amr_description.ros.runtime import destroy_node
+from amr_description.ros_arguments import inherited
 
 NODE_NAME = 'controller_manager'
 

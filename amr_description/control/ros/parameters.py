@@ -28,7 +28,6 @@ from amr_description.controllers.parameter_sections import listed_controllers, r
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.model.findings import Finding
 from amr_description.parameter_files import read_parameter_file
-from amr_description.ros.arguments import files_in, inherited, ros_arguments
 from amr_description.ros.parameters import (
     add_validation_callback,
     declare,
@@ -37,6 +36,7 @@ from amr_description.ros.parameters import (
     values,
 )
 from amr_description.ros.runtime import argument_errors
+from amr_description.ros_arguments import files_in, inherited, ros_arguments
 
 
 class ManagerParameters:

@@ -27,8 +27,8 @@ from amr_description.control.ros.client import ManagerClient
 from amr_description.control.ros.spawner_arguments import ControllerPlan, SpawnOptions
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.parameter_files import EVERY_NODE, read_parameter_file, sections
-from amr_description.ros.arguments import ros_arguments
 from amr_description.ros.service_calls import NoAnswerError, wait_until
+from amr_description.ros_arguments import ros_arguments
 
 SERVICES = (SetParameters, srv.LoadController, srv.ConfigureController, srv.SwitchController)
 """The types of the services that it calls to activate a controller."""

@@ -28,10 +28,10 @@ from rclpy.node import Node
 from amr_description.argument_types import positive
 from amr_description.controllers.drive_calibration import fit, Geometry, Run, yaw_error
 from amr_description.nodes.calibrate.drive import CalibrationDrive, Manoeuvre
-from amr_description.ros.arguments import other_arguments
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node
 from amr_description.ros.signals import StopRequested, StopRequests
+from amr_description.ros_arguments import other_arguments
 
 _FULL_TURN = 2.0 * math.pi
 _STRAIGHT = ('straight forward', 'straight backward')

@@ -4,7 +4,7 @@
 
 import pytest
 
-from amr_description.ros.arguments import inherited, other_arguments, ros_arguments
+from amr_description.ros_arguments import inherited, other_arguments, ros_arguments
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,99 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+ROS arguments as words.
+
+rcl's grammar of them, between ``--ros-args`` and ``--`` (or the end)::
+
+    -r, --remap [NODE:]FROM:=TO     -p, --param [NODE:]NAME:=VALUE     --params-file FILE
+    --log-level LEVEL   --log-config-file FILE   -e, --enclave ENCLAVE
+    --enable-… and --disable-… rosout-logs, stdout-logs, external-lib-logs
+"""
+
+from collections.abc import Iterator, Sequence
+
+_IDENTITY = ('__node:=', '__name:=', '__ns:=')
+_REMAPS = ('-r', '--remap')
+_PARAMETERS = ('-p', '--param')
+_RULES = (*_REMAPS, *_PARAMETERS)
+_WITHOUT_VALUE = ('--enable-', '--disable-')
+
+
+def ros_arguments(words: Sequence[str]) -> list[str]:
+    """Return the ROS arguments among the words of a command line, without ``--ros-args``."""
+    found: list[str] = []
+    is_ros = False
+    for word in words:
+        if word == '--ros-args':
+            is_ros = True
+        elif word == '--':
+            is_ros = False
+        elif is_ros:
+            found.append(word)
+    return found
+
+
+def other_arguments(words: Sequence[str]) -> list[str]:
+    """
+    Return what :func:`ros_arguments` leaves.
+
+    rclpy's ``remove_ros_args`` also takes ``name:=value`` away, the remapping rules of ROS 1.
+    """
+    found: list[str] = []
+    is_ros = False
+    for word in words:
+        if word == '--ros-args':
+            is_ros = True
+        elif is_ros and word == '--':
+            is_ros = False
+        elif not is_ros:
+            found.append(word)
+    return found
+
+
+def files_in(arguments: Sequence[str]) -> list[str]:
+    """Return the parameter files among ROS arguments, in their order."""
+    return [value[0] for flag, *value in _flags(arguments) if flag == '--params-file' and value]
+
+
+def parameters_in(words: Sequence[str]) -> dict[str, str]:
+    """Return the parameters that a command line sets for any node, as they are written."""
+    pairs = [
+        _remapped(value).partition(':=')
+        for flag, *value in _flags(ros_arguments(words))
+        if flag in _PARAMETERS
+    ]
+    return {name: value for name, sign, value in pairs if sign}
+
+
+def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list[str]:
+    """
+    Return what of a node's ROS arguments goes on to the nodes that it makes.
+
+    Not its name and namespace, which would make all of them namesakes. ``with_parameters``: its
+    parameters and parameter files too, as a controller manager's go to its controllers, all but
+    where it has its ``robot_description`` from.
+    """
+    own = (*_IDENTITY, 'robot_description:=') if with_parameters else _IDENTITY
+    kept: list[str] = []
+    for flag, *value in _flags(arguments):
+        is_own = flag in _RULES and _remapped(value).startswith(own)
+        is_parameter = flag in (*_PARAMETERS, '--params-file')
+        if not is_own and (with_parameters or not is_parameter):
+            kept += [flag, *value]
+    return kept
+
+
+def _flags(arguments: Sequence[str]) -> Iterator[list[str]]:
+    """Each flag with its value, if it takes one."""
+    words = iter(arguments)
+    for flag in words:
+        value = None if flag.startswith(_WITHOUT_VALUE) else next(words, None)
+        yield [flag] if value is None else [flag, value]
+
+
+def _remapped(value: Sequence[str]) -> str:
+    """The rule without the node that it may be limited to: ``amr:__ns:=/a`` is ``__ns:=/a``."""
+    rule = value[0] if value else ''
+    node, colon, rest = rule.partition(':')
+    return rest if colon and not rest.startswith('=') else rule
