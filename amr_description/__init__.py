@@ -6,6 +6,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ======================  ==========================================================================
 ``model/``              the robot description: URDF, xacro, ``<ros2_control>``, meshes, kinematics
 ``control/``            ros2_control without ROS; in ``control/ros/`` its nodes and services
+``controller_manager/`` a controller manager from a description and parameter files, without ROS
 ``controllers/``        diff_drive_controller, joint_state_broadcaster and the other plugins
 ``hardware/``           hardware components: MuJoCo, mock, serial
 ``sim/``                MuJoCo without ROS; in ``sim/ros/`` the services of simulation_interfaces

@@ -39,6 +39,7 @@ ARROWS = {
     'control': {'model'},
     'controllers': {'control', 'model'},
     'hardware': {'control', 'model'},
+    'controller_manager': {'controllers', 'hardware', 'control', 'model'},
     'sim': {'control', 'model', 'navigation'},  # the map of a world
     'viewer': {'model'},
     'navigation': {'model'},
@@ -50,13 +51,14 @@ ARROWS = {
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
     'workspace': set(),
-    'control/ros': {'ros', 'control', 'controllers', 'hardware', 'model'},
+    'control/ros': {'ros', 'controller_manager', 'control', 'controllers', 'model'},
     'sim/ros': {
         'bag',  # it records in its own process, without loss
         'bag/ros',
         'control/ros',
         'ros',
         'sim',
+        'controller_manager',
         'control',
         'controllers',
         'model',
@@ -117,7 +119,9 @@ ROS = {
     'bag/ros', 'doctor/ros', 'message_filters', 'sensor_msgs_py', 'nodes', 'cli', 'testing',
 }  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
-PURE = {'base', 'model', 'control', 'controllers', 'navigation', 'bag', 'doctor'}
+PURE = {
+    'base', 'model', 'control', 'controllers', 'controller_manager', 'navigation', 'bag', 'doctor',
+}  # fmt: skip
 # Heavy libraries have one home each.
 HOMES = {
     'rclpy': ROS,

@@ -17,7 +17,7 @@ of each controller that subscribes to something takes its messages.
 
 ``controller_manager_node.py`` the node, and how a manager is brought up
 ``robot_description.py``       the topic from which it has its robot
-``parameters.py``              its parameters, and those that it keeps for a controller
+``node_parameters.py``         parameters of managers and controllers, in their nodes
 ``plugin_nodes.py``            the nodes of controllers and hardware components
 ``port_servers.py``            their services and actions
 ``converters.py``              samples of controllers ↔ messages
@@ -26,7 +26,6 @@ of each controller that subscribes to something takes its messages.
 ``trajectory_converters.py``   … those of joint trajectories
 ``encoders.py``                … as bytes, for what is published in every cycle
 ``services.py``                its services: requests in, responses out
-``requests.py``                what they do
 ``status_topics.py``           activity, diagnostics, introspection
 
 ``client.py``                  calls the services of a manager

@@ -18,7 +18,6 @@ Whoever waits for the services so finds a manager whose hardware is ready.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from time import monotonic_ns
 
 from rclpy.node import Node
@@ -26,11 +25,9 @@ from rclpy.parameter import Parameter
 
 from amr_description.control.contracts import Log, Severity, World
 from amr_description.control.controller_manager import ControllerManager
-from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.ros.loop_thread import LoopContext
-from amr_description.control.ros.parameters import ManagerParameters
-from amr_description.control.ros.plugin_nodes import ComponentNode
-from amr_description.control.ros.requests import ManagerRequests
+from amr_description.control.ros.node_parameters import NodeParameters
+from amr_description.control.ros.plugin_nodes import ComponentNode, NodeHost
 from amr_description.control.ros.services import ManagerServices
 from amr_description.control.ros.status_topics import (
     ActivityTopic,
@@ -38,8 +35,9 @@ from amr_description.control.ros.status_topics import (
     Introspection,
 )
 from amr_description.control.snapshot import ManagerSnapshot
-from amr_description.hardware import HARDWARE
-from amr_description.hardware.in_simulator import class_in_simulator
+from amr_description.controller_manager.bring_up import bring_up
+from amr_description.controller_manager.parameters import ManagerParameters
+from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.parameters import add_parameter_event_qos_overrides
@@ -81,7 +79,7 @@ class ControllerManagerNode:
         self.log: Log = context.logs.log_of(self.node.get_logger())
         try:
             add_parameter_event_qos_overrides(self.node)
-            self.parameters = ManagerParameters(self.node, arguments)
+            self.parameters = ManagerParameters(NodeParameters(self.node), arguments, self.log)
             self.topics = StatusTopics(self.node, context, self.parameters)
         except Exception:
             self.destroy()
@@ -140,37 +138,16 @@ class PreparedManager:
             Exception: Whatever a third party's component raises; likewise.
         """
         manager_node = self.manager_node
-        enforce = manager_node.parameters.start.enforce_command_limits
-        initial = manager_node.parameters.start.hardware_components_initial_state
-        if not enforce:
-            manager_node.log(
-                Severity.INFO,
-                'Enforcing command limits is disabled. Command limits from URDF will be ignored.',
-            )
-        resources = ResourceManager(manager_node.log, self.robot, enforce, monotonic_ns)
-        try:
-            for info, node in self.components:
-                find = HARDWARE.find
-                if world is not None:
-                    find = partial(class_in_simulator, info, node.log, simulates_mocks)
-                resources.load(info, find, world, node.log)
-            resources.start_components(
-                initial.unconfigured,
-                initial.inactive,
-                initial.shutdown_on_initial_state_failure,
-            )
-        except Exception:
-            resources.shut_down()
-            raise
-        manager = ControllerManager(
-            resources,
-            manager_node.parameters.update_rate,
+        manager = bring_up(
+            manager_node.parameters,
             manager_node.log,
-            period,
-            manager_node.parameters.defaults(),
+            self.robot,
+            [(info, component.log) for info, component in self.components],
+            world=world,
+            period=period,
+            simulates_mocks=simulates_mocks,
+            stopwatch=monotonic_ns,
         )
-        for name in resources.components:
-            manager_node.log(Severity.INFO, f'Registering statistics for : {name}')
         manager_node.topics.watch(manager, may_overrun=world is None)
         return manager
 
@@ -189,14 +166,13 @@ class PreparedManager:
             'services...',
         )
         requests = ManagerRequests(
-            manager_node.node,
+            NodeHost(manager_node.node, manager_node.context),
             manager_node.log,
             manager_node.parameters,
             manager,
             robot=self.robot,
-            context=manager_node.context,
         )
-        ManagerServices(requests)
+        ManagerServices(manager_node.node, requests)
         return RunningManager(self, manager, requests)
 
     def release(self) -> None:

@@ -9,18 +9,18 @@ removes everything here; the control thread calls :meth:`LoopTopic.send`, by way
 and :class:`TransitionEvents`. What a controller subscribes to, a thread of its own takes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Sequence
 import re
-from typing import Any
+from typing import Any, TypeVar
 
 from lifecycle_msgs.msg import State, Transition, TransitionEvent
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.task import Future
 
 from amr_description.control.contracts import (
     Controller,
-    ControllerContext,
     Input,
     Output,
     Port,
@@ -28,32 +28,27 @@ from amr_description.control.contracts import (
     Severity,
 )
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.manager_parameters import CommonParameters
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import encoder_of
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext
+from amr_description.control.ros.node_parameters import NodeParameters
 from amr_description.control.ros.port_servers import (
     GoalServer,
     reader_of,
     ServiceServer,
     writer_of,
 )
+from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.errors import AmrError
 from amr_description.model.robot import Robot
-from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.message_types import message_type
-from amr_description.ros.parameters import (
-    add_parameter_event_qos_overrides,
-    add_validation_callback,
-    adopt_overrides,
-    declare,
-    declare_added,
-    values,
-)
-from amr_description.ros.runtime import destroy_node
+from amr_description.ros.parameters import add_parameter_event_qos_overrides
+from amr_description.ros.runtime import argument_errors, destroy_node, run_in_thread
+
+_Result = TypeVar('_Result')
 
 
 class ComponentNode:
@@ -120,17 +115,17 @@ class ControllerNode:
         self.node: Node = context.publisher.make_node(name, namespace, arguments)
         try:
             self._table = controller_class.parameters_type
+            self._parameters = NodeParameters(self.node)
             self.log = context.logs.log_of(self.node.get_logger())
             self.publish_transition = TransitionEvents(self.node, context.publisher)
-            common = self._declare(update_rate, *_names_of(robot))
-            self.controller = controller_class(
-                ControllerContext(
-                    name=name,
-                    log=self.log,
-                    namespace=namespace,
-                    update_rate=common.update_rate or update_rate,
-                    robot=robot,
-                )
+            self.controller = make_controller(
+                controller_class,
+                self._parameters,
+                name=name,
+                namespace=namespace,
+                log=self.log,
+                update_rate=update_rate,
+                robot=robot,
             )
         except Exception:
             self.destroy()
@@ -143,8 +138,8 @@ class ControllerNode:
         Those of keyed groups that are new since the last time are declared now. Raises
         ParameterError.
         """
-        declare_added(self.node, self._table)
-        return values(self.node, self._table)
+        self._parameters.declare_added(self._table)
+        return self._parameters.values(self._table)
 
     def connect(self) -> None:
         """
@@ -152,6 +147,10 @@ class ControllerNode:
         earlier ones.
         """
         self.disconnect()
+        with argument_errors():
+            self._connect()
+
+    def _connect(self) -> None:
         if inputs := self.controller.inputs():
             self._inputs = CallbackThread(self.node, self._context.loop_thread.fail)
             for each in inputs:
@@ -183,27 +182,9 @@ class ControllerNode:
         """Remove the node."""
         self.disconnect()
         self._publisher.forget((), tuple(self.node.publishers))
+        if self.node.executor is not None:
+            self.node.executor.remove_node(self.node)
         destroy_node(self.node)
-
-    # --- parameters ---------------------------------------------------------------------------
-
-    def _declare(
-        self, manager_rate: int, joints: Sequence[str], others: Sequence[str]
-    ) -> CommonParameters:
-        """Declare both tables; what is set later counts at the next configure."""
-        for line in adopt_overrides(
-            self.node, self._table, CommonParameters, joints=joints, others=others
-        ):
-            self.log(Severity.WARN, line)
-        declare(self.node, self._table)
-        common = declare(self.node, CommonParameters, defaults={'update_rate': manager_rate})
-        add_validation_callback(self.node, self._table, CommonParameters)
-        if common.is_async:
-            self.log(
-                Severity.WARN,
-                'is_async is true: the controller is updated in the control loop all the same',
-            )
-        return common
 
     # --- ports --------------------------------------------------------------------------------
 
@@ -259,6 +240,60 @@ class ControllerNode:
         encode = encoder_of(sample, port.port.message, fill, message_class)
         port.sink = self._publisher.topic(publisher, encode).send
         return publisher
+
+
+class NodeHost:
+    """
+    Serves the controllers of a manager by nodes: a
+    :class:`~amr_description.controller_manager.requests.Host`.
+    """
+
+    def __init__(self, node: Node, context: LoopContext) -> None:
+        """
+        Serve no controller yet.
+
+        Args:
+            node: Of the manager; it must be in an executor, which serves the controllers too.
+            context: Of the process.
+        """
+        self._node = node
+        self._context = context
+
+    @property
+    def time(self) -> int:
+        """Present time, ns; on the control thread."""
+        return self._context.loop_thread.loop.time
+
+    def make(
+        self,
+        name: str,
+        controller_class: type[Controller],
+        arguments: Sequence[str],
+        *,
+        update_rate: int,
+        robot: Robot | None,
+    ) -> ControllerNode:
+        """Make a controller and its node, and have it served. Raises ParameterError, or more."""
+        with argument_errors():
+            made = ControllerNode(
+                name,
+                controller_class,
+                arguments,
+                namespace=self._node.get_namespace(),
+                update_rate=update_rate,
+                robot=robot,
+                context=self._context,
+            )
+        self._node.executor.add_node(made.node)
+        return made
+
+    def ask(self, call: Callable[[], _Result]) -> Future:
+        """Have the control thread make a call; see :meth:`LoopThread.submit`."""
+        return self._context.loop_thread.submit(call, self._node.executor)
+
+    def run_aside(self, call: Callable[[], None], name: str) -> Awaitable[object]:
+        """Make a call in a thread of its own."""
+        return run_in_thread(call, self._node.executor, name)
 
 
 _CONFIGURING = State(id=State.TRANSITION_STATE_CONFIGURING, label='configuring')
@@ -332,15 +367,6 @@ def _end_of(transition: Transition, *, succeeded: bool) -> Transition:
     if succeeded:
         return Transition(id=number, label='transition_success')
     return Transition(id=number + 1, label='transition_failure')
-
-
-def _names_of(robot: Robot | None) -> tuple[list[str], list[str]]:
-    """Return the joints of a robot, and its links, sensors and GPIOs: what parameters may name."""
-    if robot is None:
-        return [], []
-    parts = [part.name for info in hardware_of(robot) for part in (*info.sensors, *info.gpios)]
-    joints = [joint.name for joint in robot.joints]
-    return joints, [link.name for link in robot.links] + parts
 
 
 def node_name(component: str) -> str:

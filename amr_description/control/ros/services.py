@@ -19,15 +19,16 @@ from controller_manager_msgs.msg import (
 )
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.duration import Duration
+from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile
 
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.ros.requests import ManagerRequests
 from amr_description.control.snapshot import (
     ComponentSnapshot,
     ControllerSnapshot,
     InterfaceSnapshot,
 )
+from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.controllers import CONTROLLERS
 from amr_description.ros.log_thread import log_error
 
@@ -39,10 +40,10 @@ _CHAINABLE_BASE_CLASS = 'controller_interface::ChainableControllerInterface'
 class ManagerServices:
     """Requests in, responses out."""
 
-    def __init__(self, requests: ManagerRequests) -> None:
-        """Make the services on the node of ``requests``, which carries them out."""
+    def __init__(self, node: Node, requests: ManagerRequests) -> None:
+        """Make the services on the node of the manager; ``requests`` carries them out."""
         self._requests = requests
-        self._node = requests.node
+        self._node = node
         group = ReentrantCallbackGroup()
         for service_type, callback in (
             (srv.ListControllers, self._list_controllers),

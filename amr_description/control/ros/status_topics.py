@@ -42,8 +42,8 @@ from amr_description.control.introspection import (
 from amr_description.control.ros.encoders import Encoding, filling, TemplateEncoder
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext, LoopThread
-from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
+from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.ros.cdr_template import Template
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED

@@ -7,8 +7,10 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from support.manager_host import ros_in_this_process
 
-from amr_description.control.ros.parameters import ManagerParameters
+from amr_description.control.contracts import null_log
+from amr_description.control.ros.node_parameters import NodeParameters
 from amr_description.control.switching import Strictness
+from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.errors import ControllerError, ParameterError
 
 
@@ -28,7 +30,7 @@ def made(tmp_path):
             allow_undeclared_parameters=True,
         )
         nodes.append(node)
-        return node, ManagerParameters(node, arguments)
+        return node, ManagerParameters(NodeParameters(node), arguments, null_log)
 
     with ros_in_this_process():
         yield make

@@ -12,12 +12,14 @@ from rclpy.parameter import Parameter
 from support.manager_host import ros_in_this_process
 
 from amr_description.clock import NANOSECONDS
+from amr_description.control.contracts import null_log
 from amr_description.control.manager_parameters import CommonParameters, ManagerTable
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
+from amr_description.control.ros.node_parameters import NodeParameters
 from amr_description.control.ros.pacing import WallPacer
-from amr_description.control.ros.parameters import ManagerParameters
 from amr_description.control.ros.status_topics import DiagnosticsTopic
+from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import AmrError, ParameterError
 from amr_description.nodes.joint_state_publisher import (
@@ -122,7 +124,7 @@ def parts_of(velocity):
 )
 def test_controller_manager(name, value):
     node = Node('manager', allow_undeclared_parameters=True, **given(name, value))
-    parameters = made(lambda: ManagerParameters(node, []), name, value)
+    parameters = made(lambda: ManagerParameters(NodeParameters(node), [], null_log), name, value)
     if parameters is not None:
         assert round(NANOSECONDS / parameters.update_rate) > 0
         DiagnosticsTopic(node, LoopThread(CallQueue(), SingleThreadedExecutor()), parameters)

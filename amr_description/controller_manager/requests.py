@@ -1,35 +1,105 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the services of a controller manager do: coroutines on the thread that serves its node.
+What is asked of a controller manager: load, configure, switch, unload.
 
-Nodes and topics are made here; the rest is submitted to the control thread and awaited, so that
-nothing here ever blocks the executor.
+The requests are coroutines, so that over ROS none blocks the thread that serves the node of the
+manager: what concerns the manager is done on the control thread, and awaited. Where there is one
+thread only nothing has to be awaited, and :func:`run_at_once` runs a request like a function.
+
+What serves a controller, a node with topics or nothing but its ports, is for its :class:`Host`.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Awaitable, Callable, Coroutine, Iterable, Sequence
 import importlib
 import sys
-from typing import TypeVar
+from typing import Any, Protocol, TypeVar
 
-from rclpy.node import Node
-from rclpy.task import Future
-
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Controller, Log, Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
+from amr_description.control.loaded_controller import TransitionCallback
 from amr_description.control.manager_parameters import ControllerEntry
 from amr_description.control.plugin_errors import describe
-from amr_description.control.ros.loop_thread import LoopContext
-from amr_description.control.ros.parameters import ManagerParameters
-from amr_description.control.ros.plugin_nodes import ControllerNode
 from amr_description.control.switching import Strictness
+from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError, ControllerError
 from amr_description.model.robot import Robot
-from amr_description.ros.runtime import argument_errors, run_in_thread
 
 Result = TypeVar('Result')
+
+
+class ServedController(Protocol):
+    """A controller, unconfigured at first, with its parameters and what serves its ports."""
+
+    @property
+    def controller(self) -> Controller:
+        """The controller."""
+
+    @property
+    def publish_transition(self) -> TransitionCallback:
+        """Called for every transition, as the manager says."""
+
+    def parameters(self) -> Any:
+        """Return its parameters as they are now. Raises ParameterError."""
+
+    def connect(self) -> None:
+        """Serve the ports that the configured controller declares, in place of earlier ones."""
+
+    def disconnect(self) -> None:
+        """Serve them no more."""
+
+    def destroy(self) -> None:
+        """Remove what serves it."""
+
+
+class Host(Protocol):
+    """What the controllers of a manager are served by, and where its calls are made."""
+
+    @property
+    def time(self) -> int:
+        """Present time, ns; on the control thread."""
+
+    def make(
+        self,
+        name: str,
+        controller_class: type[Controller],
+        arguments: Sequence[str],
+        *,
+        update_rate: int,
+        robot: Robot | None,
+    ) -> ServedController:
+        """
+        Make a controller.
+
+        Args:
+            name: Of the controller and its node.
+            controller_class: Called with a ControllerContext.
+            arguments: ROS arguments of the node.
+            update_rate: Of the manager, Hz.
+            robot: As its URDF says; handed to the controller.
+
+        Raises:
+            ParameterError: A parameter has another type, or is out of its bounds.
+            Exception: Whatever the constructor of a third party's controller raises.
+        """
+
+    def ask(self, call: Callable[[], Result]) -> Awaitable[Result]:
+        """Have the control thread make a call between two cycles; what it raises is raised."""
+
+    def run_aside(self, call: Callable[[], None], name: str) -> Awaitable[object]:
+        """Make a call that may take long, while the control thread goes on."""
+
+
+def run_at_once(request: Coroutine[Any, Any, Any]) -> Any:
+    """Run a request whose host has all done at once; return what it returns."""
+    try:
+        request.send(None)
+    except StopIteration as end:
+        return end.value
+    request.close()
+    raise RuntimeError('a request waits, and there is nobody to wait for')
 
 
 def reload_modules(names: Iterable[str]) -> None:
@@ -57,32 +127,29 @@ class ManagerRequests:
 
     def __init__(
         self,
-        node: Node,
+        host: Host,
         log: Log,
         parameters: ManagerParameters,
         manager: ControllerManager,
         *,
         robot: Robot | None,
-        context: LoopContext,
     ) -> None:
         """
         Begin without controllers.
 
         Args:
-            node: Of the manager; it must be in an executor.
+            host: Serves the controllers.
             log: Of the manager.
             parameters: Of the manager.
             manager: Used on the control thread only, but for its snapshot.
             robot: Handed to controllers.
-            context: Of the process.
         """
-        self.node = node
         self.log = log
         self.manager = manager
-        self.controllers: dict[str, ControllerNode] = {}
-        self._parameters = parameters
+        self.controllers: dict[str, ServedController] = {}
+        self.parameters = parameters
+        self._host = host
         self._robot = robot
-        self._context = context
         self._modules: set[str] = set()
 
     async def load(self, name: str) -> None:
@@ -91,10 +158,10 @@ class ManagerRequests:
             raise ControllerError(
                 f"A controller named '{name}' was already loaded inside the controller manager"
             )
-        entry = self._parameters.entry_of(name)
+        entry = self.parameters.entry_of(name)
         self.log(Severity.INFO, f"Loading controller : '{name}' of type '{entry.type}'")
         try:
-            controller_node = self._make(name, entry)
+            served = self._make(name, entry)
         except AmrError:
             raise
         except Exception as error:
@@ -102,15 +169,14 @@ class ManagerRequests:
                 f"Failed to load controller '{name}': {describe(error)}"
             ) from error
         # Before the manager has it: others may see the controller in the list at once.
-        self.controllers[name] = controller_node
-        self.node.executor.add_node(controller_node.node)
+        self.controllers[name] = served
         try:
-            await self._ask(
+            await self._host.ask(
                 lambda: self.manager.load(
-                    controller_node.controller,
+                    served.controller,
                     entry.type,
                     entry.fallback_controllers,
-                    controller_node.publish_transition,
+                    served.publish_transition,
                 )
             )
         except Exception:
@@ -123,30 +189,27 @@ class ManagerRequests:
 
         The controller's own part, which may take long, runs in a thread of its own.
         """
-        controller_node = self.controllers.get(name)
-        if controller_node is None:
+        served = self.controllers.get(name)
+        if served is None:
             raise ControllerError(
                 f"Could not configure controller with name '{name}' because no controller with "
                 'this name exists'
             )
         self.log(Severity.INFO, f"Configuring controller: '{name}'")
-        parameters = controller_node.parameters()
+        parameters = served.parameters()
         try:
-            configuring = await self._ask(lambda: self.manager.begin_configure(name))
-            await run_in_thread(
-                lambda: configuring.run(parameters), self.node.executor, f'configure {name}'
-            )
-            await self._ask(lambda: self.manager.finish_configure(configuring))
+            configuring = await self._host.ask(lambda: self.manager.begin_configure(name))
+            await self._host.run_aside(lambda: configuring.run(parameters), f'configure {name}')
+            await self._host.ask(lambda: self.manager.finish_configure(configuring))
         except AmrError:
             states = {each.name: each.state for each in self.manager.snapshot.controllers}
             if states.get(name) is LifecycleState.UNCONFIGURED:
-                controller_node.disconnect()
+                served.disconnect()
             raise
-        if self.controllers.get(name) is not controller_node:
+        if self.controllers.get(name) is not served:
             return  # it was unloaded since
         try:
-            with argument_errors():
-                controller_node.connect()
+            served.connect()
         except Exception as error:
             await self.cleanup(name)
             raise ControllerError(
@@ -155,13 +218,13 @@ class ManagerRequests:
 
     async def cleanup(self, name: str) -> None:
         """Bring a controller back to unconfigured, without topics. Raises ControllerError."""
-        await self._ask(lambda: self.manager.cleanup(name))
+        await self._host.ask(lambda: self.manager.cleanup(name))
         if name in self.controllers:  # and was not unloaded since
             self.controllers[name].disconnect()
 
     async def unload(self, name: str) -> None:
         """Remove a controller and its node. Raises ControllerError."""
-        await self._ask(lambda: self.manager.unload(name))
+        await self._host.ask(lambda: self.manager.unload(name))
         self._forget(name)
 
     async def reload_libraries(self, *, force: bool) -> None:
@@ -173,10 +236,8 @@ class ManagerRequests:
                 f'{", ".join(active)}; deactivate them, or ask with force_kill'
             )
         if active:
-            await self._ask(
-                lambda: self.manager.switch(
-                    [], active, Strictness.STRICT, self._context.loop_thread.loop.time
-                )
+            await self._host.ask(
+                lambda: self.manager.switch([], active, Strictness.STRICT, self._host.time)
             )
         for name in list(self.controllers):
             await self.unload(name)
@@ -200,15 +261,15 @@ class ManagerRequests:
         Raises:
             ControllerError: The switch is refused, or has failed.
         """
-        defaults = self._parameters.defaults()
+        defaults = self.parameters.defaults()
 
         def switch() -> str:
             self.manager.defaults = defaults
-            time = self._context.loop_thread.loop.time
+            time = self._host.time
             return self.manager.switch(activate, deactivate, strictness, time, timeout)
 
         try:
-            message = await self._ask(switch)
+            message = await self._host.ask(switch)
         finally:
             self._disconnect_unconfigured()
         self.log(Severity.INFO, message)
@@ -222,22 +283,16 @@ class ManagerRequests:
 
     async def set_component_state(self, name: str, state: LifecycleState) -> None:
         """Bring a hardware component to a state. Raises HardwareError."""
-        await self._ask(
-            lambda: self.manager.set_component_state(
-                name, state, self._context.loop_thread.loop.time
-            )
+        await self._host.ask(
+            lambda: self.manager.set_component_state(name, state, self._host.time)
         )
 
-    def _ask(self, call: Callable[[], Result]) -> Future:
-        """Have the control thread make a call; see :meth:`LoopThread.submit`."""
-        return self._context.loop_thread.submit(call, self.node.executor)
-
-    def _make(self, name: str, entry: ControllerEntry) -> ControllerNode:
-        """Make a controller and its node. Raises ControllerError, ParameterError, or anything."""
-        with self._parameters.explained(name, entry):
+    def _make(self, name: str, entry: ControllerEntry) -> ServedController:
+        """Make a controller. Raises ControllerError, ParameterError, or anything."""
+        with self.parameters.explained(name, entry):
             return self._make_of_type(name, entry)
 
-    def _make_of_type(self, name: str, entry: ControllerEntry) -> ControllerNode:
+    def _make_of_type(self, name: str, entry: ControllerEntry) -> ServedController:
         try:
             controller_class = CONTROLLERS.find(entry.type)
         except ControllerError as error:
@@ -245,24 +300,19 @@ class ManagerRequests:
                 f"Loader for controller '{name}' (type '{entry.type}') not found. {error}"
             ) from error
         self._modules.add(controller_class.__module__)
-        arguments = self._parameters.arguments_of(entry)
+        arguments = self.parameters.arguments_of(entry)
         self.log(Severity.INFO, f"Loading controller '{name}'")
         self.log(
             Severity.INFO, f"Controller '{name}' node arguments: --ros-args {' '.join(arguments)} "
         )
-        with argument_errors():
-            return ControllerNode(
-                name,
-                controller_class,
-                arguments,
-                namespace=self.node.get_namespace(),
-                update_rate=self._parameters.update_rate,
-                robot=self._robot,
-                context=self._context,
-            )
+        return self._host.make(
+            name,
+            controller_class,
+            arguments,
+            update_rate=self.parameters.update_rate,
+            robot=self._robot,
+        )
 
     def _forget(self, name: str) -> None:
-        """Remove the node of a controller that the manager does not know, or no longer."""
-        controller_node = self.controllers.pop(name)
-        self.node.executor.remove_node(controller_node.node)
-        controller_node.destroy()
+        """Remove a controller that the manager does not know, or no longer."""
+        self.controllers.pop(name).destroy()

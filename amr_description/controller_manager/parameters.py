@@ -1,23 +1,21 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The parameters of a ``controller_manager`` node: its own, and those that it keeps for a controller.
+The parameters of a ``controller_manager``: its own, and those that it keeps for a controller.
 
 The tables of :mod:`amr_description.control.manager_parameters` say what there is;
-:class:`ManagerParameters` declares and reads them on the node.
+:class:`ManagerParameters` declares and reads them, in a node of ROS or without.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
-from rclpy.node import Node
-from rclpy.parameter import Parameter
-
+from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ManagerDefaults
 from amr_description.control.manager_parameters import ControllerEntry, ManagerTable
 from amr_description.control.switching import Strictness
+from amr_description.controller_manager.parameter_store import ParameterStore
 from amr_description.controllers.parameter_faults import (
     controller_parameters,
     errors_of,
@@ -28,49 +26,43 @@ from amr_description.controllers.parameter_sections import listed_controllers, r
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.model.findings import Finding
 from amr_description.parameter_files import read_parameter_file
-from amr_description.ros.parameters import (
-    add_validation_callback,
-    declare,
-    declare_missing,
-    declare_overrides,
-    values,
-)
-from amr_description.ros.runtime import argument_errors
 from amr_description.ros_arguments import files_in, inherited, ros_arguments
 
 
 class ManagerParameters:
     """
-    Declares the parameters of a manager's node, and reads them whenever they are needed.
+    Declares the parameters of a manager, and reads them whenever they are needed.
 
     So what ``ros2 param set`` has set before a controller is loaded counts.
     """
 
-    def __init__(self, node: Node, arguments: Sequence[str]) -> None:
+    def __init__(self, store: ParameterStore, arguments: Sequence[str], log: Log) -> None:
         """
         Declare the parameters.
 
         Args:
-            node: Of the manager; it must allow undeclared parameters.
+            store: Has what the manager was given.
             arguments: Its ROS arguments, which every controller gets too.
+            log: Of the manager.
 
         Raises:
             ParameterError: A value has the wrong type, or is out of its bounds.
         """
-        self._node = node
+        self.store = store
         self._arguments = list(arguments)
-        uses_sim_time = node.get_parameter('use_sim_time').value
-        with self._explained(self._own_faults), argument_errors():
-            self.start = declare(
-                node, ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time}
-            )
+        self._log = log
+        uses_sim_time = store.value('use_sim_time')
+        with self._explained(self._own_faults):
+            store.declare(ManagerTable, defaults={'overruns.print_warnings': not uses_sim_time})
+            self.start = store.values(ManagerTable)
             """The values at the start."""
-            declare_overrides(node)
-        add_validation_callback(node, ManagerTable)
+            store.declare_given()
+        store.check_sets(ManagerTable)
         if not self.start.handle_exceptions:
-            node.get_logger().warning(
+            log(
+                Severity.WARN,
                 'handle_exceptions is false; what raises an exception is taken down all the same, '
-                'and the others go on'
+                'and the others go on',
             )
 
     @property
@@ -80,7 +72,7 @@ class ManagerParameters:
 
     def now(self) -> ManagerTable:
         """Return the present values."""
-        return values(self._node, ManagerTable)
+        return self.store.values(ManagerTable)
 
     def entry_of(self, name: str) -> ControllerEntry:
         """
@@ -90,21 +82,20 @@ class ManagerParameters:
             ControllerError: It has no type; the controllers that have one are named.
             ParameterError: A value has the wrong type.
         """
-        if not self._get(f'{name}.type'):
+        if not self.store.value(f'{name}.type'):
             causes = '; '.join(each.text for each in errors_of(self._own_faults()))
             raise ControllerError(
                 f"no type is set for '{name}': {causes}"
                 if causes
                 else f"The 'type' param was not defined for '{name}'. Controllers with a type in "
-                f'the parameters of {self._node.get_fully_qualified_name()}: '
+                f'the parameters of {self.store.node}: '
                 f'{", ".join(self._typed_controllers()) or "none"}'
             )
         prefix = f'{name}.'
-        with argument_errors():
-            declare_missing(self._node, ControllerEntry, prefix=prefix)
-        file = self._get(f'{prefix}params_file')
-        lone = [Parameter(f'{prefix}params_file', value=[file])] if isinstance(file, str) else []
-        return values(self._node, ControllerEntry, lone, prefix=prefix)
+        self.store.declare(ControllerEntry, prefix=prefix)
+        file = self.store.value(f'{prefix}params_file')
+        lone = {f'{prefix}params_file': [file]} if isinstance(file, str) else {}
+        return self.store.values(ControllerEntry, lone, prefix=prefix)
 
     def arguments_of(self, entry: ControllerEntry) -> list[str]:
         """
@@ -114,7 +105,7 @@ class ManagerParameters:
         """
         for path in entry.params_file:
             read_parameter_file(Path(path))  # rcl would not say where it is wrong
-        uses_sim_time = self._get('use_sim_time')
+        uses_sim_time = self.store.value('use_sim_time')
         return [
             *inherited(self._arguments),
             *(argument for path in entry.params_file for argument in ('--params-file', path)),
@@ -137,7 +128,7 @@ class ManagerParameters:
             if not places:
                 return ()  # its type is from elsewhere, and so may be the parameters
             _, fault = type_fault(name, entry.type, places[-1])
-            node = f'{self._node.get_namespace().rstrip("/")}/{name}'
+            node = f'{self.store.node.rpartition("/")[0]}/{name}'
             read = controller_parameters(found, node, entry.type, places[-1])
             return [fault] if fault is not None else read.faults
 
@@ -158,12 +149,12 @@ class ManagerParameters:
                 raise type(error)('; '.join(each.text for each in causes)) from error
             raise
         for each in found:
-            self._node.get_logger().warning(each.text)
+            self._log(Severity.WARN, each.text)
 
     def _own_faults(self) -> Sequence[Finding]:
         """Return what is wrong with the manager's own sections in its files."""
         found = read_sections(files_in(self._arguments))
-        return tuple(manager_faults(found, self._node.get_fully_qualified_name()))
+        return tuple(manager_faults(found, self.store.node))
 
     def defaults(self) -> ManagerDefaults:
         """Return the present values of ``defaults.…``."""
@@ -178,12 +169,7 @@ class ManagerParameters:
             ),
         )
 
-    def _get(self, name: str) -> Any:
-        return self._node.get_parameter_or(name, Parameter(name)).value
-
     def _typed_controllers(self) -> list[str]:
         return sorted(
-            name.removesuffix('.type')
-            for name in self._node.get_parameters_by_prefix('')
-            if name.endswith('.type')
+            name.removesuffix('.type') for name in self.store.names() if name.endswith('.type')
         )
