@@ -16,6 +16,7 @@ Every error that this package raises on purpose.
     │   └── HardwareError    a hardware component failed
     │       ├── HardwareDeactivationError  its write() asks for deactivation
     │       └── HardwareStartError  it did not reach its initial state, which is required
+    ├── NoAnswerError        a service did not answer in time
     ├── SimulationError      the simulated world cannot do what was asked
     │   └── RequestError     a request to the simulator is refused; carries its result code
     │       └── SpawnError   an entity cannot be spawned
@@ -91,6 +92,10 @@ class HardwareDeactivationError(HardwareError):
 
 class HardwareStartError(HardwareError):
     """A hardware component did not reach its initial state, which the parameters require."""
+
+
+class NoAnswerError(AmrError):
+    """A service did not answer in time."""
 
 
 class SimulationError(AmrError):

@@ -84,6 +84,67 @@ def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list
     return kept
 
 
+class NodeNames:
+    """
+    The full names of what a node calls its topics, as rcl expands and remaps them.
+
+    Of the rules of its ROS arguments the first that matches counts.
+    """
+
+    def __init__(self, node: str, arguments: Sequence[str]) -> None:
+        """
+        Take the rules.
+
+        Args:
+            node: The full name of the node.
+            arguments: Its ROS arguments.
+        """
+        self._node = node
+        self._namespace, _, name = node.rpartition('/')
+        self._rules: list[tuple[str, str]] = []
+        for flag, *value in _flags(arguments):
+            if flag not in _REMAPS or not value:
+                continue
+            rule = _remapped(value)
+            limit = value[0].removesuffix(rule).removesuffix(':')
+            before, sign, after = rule.removeprefix('rostopic://').partition(':=')
+            if sign and limit in ('', name) and not before.startswith(('__', 'rosservice://')):
+                self._rules.append((self.expanded(before), after))
+
+    def resolve(self, topic: str) -> str:
+        """Return the full name of a topic."""
+        full = self.expanded(topic)
+        for before, after in self._rules:
+            if before == full:
+                return self.expanded(after)
+        return full
+
+    def expanded(self, topic: str) -> str:
+        """Return a name with the node's, or its namespace, in front; not remapped."""
+        if topic.startswith('/'):
+            return topic
+        if topic.startswith('~'):
+            return f'{self._node}/{topic[1:].removeprefix("/")}'.rstrip('/')
+        return f'{self._namespace}/{topic}'
+
+
+def parameter_sources(arguments: Sequence[str]) -> Iterator[tuple[str, str, str]]:
+    """
+    Yield what gives parameters, in order: ('', '', file), or (pattern, name, value as written).
+
+    The pattern is that of the nodes that a value is for, as in a parameter file.
+    """
+    for flag, *value in _flags(arguments):
+        if flag == '--params-file' and value:
+            yield '', '', value[0]
+        elif flag in _PARAMETERS and value:
+            rule = _remapped(value)
+            limit = value[0].removesuffix(rule).removesuffix(':')
+            name, sign, given = rule.partition(':=')
+            if sign:
+                yield f'/{limit}' if limit else '/**', name, given
+
+
 def _flags(arguments: Sequence[str]) -> Iterator[list[str]]:
     """Each flag with its value, if it takes one."""
     words = iter(arguments)

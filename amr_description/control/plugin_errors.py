@@ -21,6 +21,14 @@ def error_line(error: Exception) -> str:
     return unwrap(_text_of(error))
 
 
+def log_error(log: Log, error: Exception) -> str:
+    """Log an error in one line, and its traceback at DEBUG; return the line."""
+    line = unwrap(describe(error))
+    log(Severity.ERROR, line)
+    log_traceback(log, error)
+    return line
+
+
 def log_traceback(log: Log, error: Exception) -> None:
     """Log the traceback at DEBUG, for the author of the plugin that raised."""
     log(Severity.DEBUG, ''.join(traceback.format_exception(error)))

@@ -24,7 +24,7 @@ from rclpy.utilities import remove_ros_args
 
 from amr_description.colors import colored, GREEN, YELLOW
 from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner_arguments import seconds
+from amr_description.controller_manager.spawner_arguments import seconds
 from amr_description.errors import HardwareError
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node

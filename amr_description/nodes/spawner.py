@@ -25,16 +25,13 @@ import threading
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
-from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner import (
-    exclusive_lock,
-    files_in_arguments,
-    SERVICES,
-    Spawner,
-    yellow,
-)
-from amr_description.control.ros.spawner_arguments import parse, SpawnOptions
+from amr_description.control.ros.client import ManagerClient, SPAWNER_SERVICES
+from amr_description.control.ros.spawner_lock import exclusive_lock
+from amr_description.controller_manager.spawner import Spawner, yellow
+from amr_description.controller_manager.spawner_arguments import parse, SpawnOptions
+from amr_description.controller_manager.spawner_files import files_in_arguments
 from amr_description.errors import ParameterError
+from amr_description.ros.log_thread import LoggerLog
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node
 from amr_description.ros.signals import StopRequests
@@ -52,9 +49,10 @@ def spawn(args: list[str] | None) -> None:
                 _manager_name(node, options),
                 timeout=options.manager_timeout,
                 call_timeout=options.call_timeout,
-                soon=SERVICES,
+                soon=SPAWNER_SERVICES,
             )
-            spawner = Spawner(node, manager, options, files_in_arguments(words))
+            log = LoggerLog(node.get_logger())
+            spawner = Spawner(log, manager, options, files_in_arguments(words))
             alone = partial(
                 exclusive_lock, node, manager.name, [plan.name for plan in options.plans]
             )

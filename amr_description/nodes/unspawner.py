@@ -19,7 +19,7 @@ from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
 from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner_arguments import seconds
+from amr_description.controller_manager.spawner_arguments import seconds
 from amr_description.errors import ControllerError
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node

@@ -12,11 +12,10 @@ import re
 import threading
 import time
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.control.plugin_errors import describe, log_traceback
+from amr_description.control.contracts import Severity
 from amr_description.ros.rclpy_internals import RcutilsLogger
 from amr_description.streams import wait_for_stderr
-from amr_description.text import encodable, unwrap
+from amr_description.text import encodable
 
 _FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 _MOST_WAITING = 2000
@@ -106,12 +105,15 @@ class NodeLog:
         self._lines.put(self._logger, severity, text)
 
 
-def log_error(log: Log, error: Exception) -> str:
-    """Log an error in one line, and its traceback at DEBUG; return the line."""
-    line = unwrap(describe(error))
-    log(Severity.ERROR, line)
-    log_traceback(log, error)
-    return line
+class LoggerLog:
+    """The port over a node's logger, for programs whose threads may wait: it emits at once."""
+
+    def __init__(self, logger: RcutilsLogger) -> None:
+        self._logger = logger
+
+    def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
+        """Log ``text``; such programs throttle nothing."""
+        _emit(self._logger, severity, text)
 
 
 def _emit(logger: RcutilsLogger, severity: Severity, text: str) -> None:

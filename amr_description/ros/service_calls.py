@@ -12,7 +12,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.validate_node_name import validate_node_name
 
-from amr_description.errors import AmrError
+from amr_description.errors import NoAnswerError
 from amr_description.ros.message_types import type_name
 from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors
@@ -45,10 +45,6 @@ _MATCHED_BY = 2.0
 
 _LAST_ANSWER = 0.2
 """s for which the answer of a server that is gone may still wait behind other messages."""
-
-
-class NoAnswerError(AmrError):
-    """A service did not answer in time."""
 
 
 class _Readiness:

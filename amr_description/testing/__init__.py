@@ -22,7 +22,6 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 ``program.py``          the simulator's process and its ROS domain
 ``bags.py``             recordings of tests: ``--ros-bag=on-failure``
 ``failure_logs.py``     the simulator's log, for a test that fails
-``tracebacks.py``       which of our frames a failed test shows
 
 ``recorded_run.py``     what a bag of the simulator has to be run again
 ``replay.py``           runs it again, and compares every message: ``ros2 run … replay BAG``

@@ -23,10 +23,10 @@ import warnings
 import pytest
 
 from amr_description.errors import SimulationError
+from amr_description.simulation.tracebacks import is_for_the_test, without_frames
 from amr_description.testing import bags
 from amr_description.testing.failure_logs import add_logs, forget_ended
 from amr_description.testing.simulation import Simulation
-from amr_description.testing.tracebacks import is_for_the_test, without_frames
 
 __tracebackhide__ = is_for_the_test
 

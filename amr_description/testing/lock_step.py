@@ -43,8 +43,8 @@ from amr_description.ros.service_calls import (
     ServiceReadiness,
     wait_until,
 )
+from amr_description.simulation.tracebacks import is_for_the_test, without_frames
 from amr_description.testing.program import SimulatorProcess
-from amr_description.testing.tracebacks import is_for_the_test, without_frames
 
 __tracebackhide__ = is_for_the_test
 

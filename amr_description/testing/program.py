@@ -29,7 +29,7 @@ from amr_description.entry import LIFELINE_VARIABLE
 from amr_description.errors import SimulationError
 from amr_description.ros.local_participants import discovery_sockets, foreign_sockets, owner_of
 from amr_description.ros.transport import UDP_LOOPBACK
-from amr_description.testing.tracebacks import is_for_the_test
+from amr_description.simulation.tracebacks import is_for_the_test
 
 __tracebackhide__ = is_for_the_test
 

@@ -1,69 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-What a test reads of a robot, in SI units, and how it is made of messages.
-"""
+"""What a test reads of a robot, from messages."""
 
-from dataclasses import dataclass
 import math
 from typing import Any
 
 from amr_description.clock import NANOSECONDS
-from amr_description.model.frames import conjugate, rotate, rpy_from_quaternion, Transform, Vector
+from amr_description.model.frames import conjugate, rotate
 from amr_description.ros.messages import nanoseconds, transform_of, vector_of
-
-
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """Pose and velocity of a robot: ground truth, or its odometry."""
-
-    time: float
-    """s, simulated."""
-    pose: Transform
-    """From the robot's base to the world, or to the frame of odometry."""
-    linear: Vector
-    """m/s, in the robot's own axes: forward, left, up."""
-    angular: Vector
-    """rad/s, about the same axes."""
-
-    @property
-    def x(self) -> float:
-        """m."""
-        return self.pose.translation[0]
-
-    @property
-    def y(self) -> float:
-        """m."""
-        return self.pose.translation[1]
-
-    @property
-    def z(self) -> float:
-        """m."""
-        return self.pose.translation[2]
-
-    @property
-    def roll(self) -> float:
-        """rad, about x."""
-        return rpy_from_quaternion(self.pose.rotation)[0]
-
-    @property
-    def pitch(self) -> float:
-        """rad, about y."""
-        return rpy_from_quaternion(self.pose.rotation)[1]
-
-    @property
-    def yaw(self) -> float:
-        """rad, about z, from -π to π."""
-        return rpy_from_quaternion(self.pose.rotation)[2]
-
-
-@dataclass(frozen=True, slots=True)
-class Joint:
-    """The state of a joint: rad, rad/s and N·m, or m, m/s and N."""
-
-    position: float
-    velocity: float
-    effort: float
+from amr_description.simulation.readings import Joint, Motion
 
 
 def motion_of_entity(state: Any) -> Motion:

@@ -2,318 +2,39 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot of a simulation in lock-step: spawned, controlled, and read by its topics."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
-import math
 from pathlib import Path
 from typing import Any, TypeAlias
-import warnings
 
-from controller_manager_msgs.srv import ListControllers
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from simulation_interfaces.srv import SpawnEntity
 
-from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner import SERVICES, Spawner
-from amr_description.control.ros.spawner_arguments import parse
+from amr_description.control.ros.client import ManagerClient, SPAWNER_SERVICES
 from amr_description.errors import SimulationError
-from amr_description.model.controller_files import (
-    class_of,
-    declared_controllers,
-    DeclaredController,
-    manager_of,
-    spawner_words,
-    VELOCITY_TOPICS,
-)
+from amr_description.model.controller_files import declared_controllers, manager_of
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_bridge import Bridge, bridged, NO_BRIDGE
-from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot as Description
+from amr_description.ros.log_thread import LoggerLog
 from amr_description.ros.messages import fill_pose
-from amr_description.testing.lock_step import LatestMessage, LockStep, TIMEOUT
-from amr_description.testing.readings import (
-    Joint,
-    joints_of,
-    Motion,
-    motion_of_entity,
-    motion_of_odometry,
+from amr_description.simulation.api import namespace_of, RobotApi
+from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
+from amr_description.simulation.spawned_controllers import (
+    BROADCASTER,
+    spawn_declared,
+    Topics,
+    topics_of,
 )
-from amr_description.testing.sensors import Contact, Image, Points, RobotReadings, Scan
-from amr_description.testing.tracebacks import is_for_the_test
+from amr_description.simulation.tracebacks import is_for_the_test
+from amr_description.testing.lock_step import LatestMessage, LockStep, TIMEOUT
+from amr_description.testing.readings import joints_of, motion_of_entity, motion_of_odometry
+from amr_description.testing.sensors import RobotReadings
 
 __tracebackhide__ = is_for_the_test
 
-_BROADCASTER = 'JointStateBroadcaster'
-_STILL = 1e-3
-"""m/s and rad/s; a slower robot counts as standing."""
-
 TopicTypes: TypeAlias = Sequence[tuple[str, Sequence[str]]]
-"""Names of topics, and their types."""
-
-
-@dataclass(frozen=True)
-class Topics:
-    """Topics of the active controllers, after remapping; empty: there is none."""
-
-    command: str = ''
-    """geometry_msgs/msg/TwistStamped, of the first controller that drives."""
-    is_stamped: bool = True
-    """Whether it is; Twist without a stamp drives a plugin of Gazebo."""
-    odometry: str = ''
-    """nav_msgs/msg/Odometry, of the same controller."""
-    joints: str = ''
-    """sensor_msgs/msg/JointState."""
-
-
-class Robot:
-    """
-    One robot of a simulation: its odometry, its joint states, and the ground truth.
-
-    Every method raises SimulationError, in one line, when the simulator refuses or has ended.
-    """
-
-    def __init__(
-        self,
-        lock_step: LockStep,
-        readings: Node,
-        name: str,
-        namespace: str,
-        topics: Topics,
-        sensors: RobotReadings,
-    ) -> None:
-        """Subscribe to the topics; ``readings``: the node of the subscriptions."""
-        self.name = name
-        """The name of the entity."""
-        self.namespace = namespace
-        self.command_topic = topics.command
-        """Of the controller that drives, or of a plugin of Gazebo; empty: there is none."""
-        self._is_stamped = topics.is_stamped
-        self._lock_step = lock_step
-        self._odometry = _latest(readings, Odometry, topics.odometry)
-        self._joints = _latest(readings, JointState, topics.joints)
-        self._sensors = sensors
-
-    def twist(self, linear: float, angular: float) -> TwistStamped | Twist:
-        """Return a command, m/s and rad/s, of the type that :attr:`command_topic` has."""
-        twist = Twist()
-        twist.linear.x, twist.angular.z = float(linear), float(angular)
-        return TwistStamped(twist=twist) if self._is_stamped else twist
-
-    @property
-    def truth(self) -> Motion:
-        """How the robot's root link really moves in the world, at this instant."""
-        return motion_of_entity(self._lock_step.state(self.name))
-
-    @property
-    def odometry(self) -> Motion:
-        """The last odometry of the drive, with its own stamp (:attr:`Motion.time`)."""
-        return motion_of_odometry(self._newest(self._odometry, 'drive'))
-
-    @property
-    def joints(self) -> dict[str, Joint]:
-        """The last state of each joint, by name, from the JointStateBroadcaster."""
-        return joints_of(self._newest(self._joints, _BROADCASTER))
-
-    @property
-    def scan(self) -> Scan:
-        """What the robot's lidar sees at this instant; see :meth:`scan_of`."""
-        return self._sensors.scan()
-
-    def scan_of(self, topic: str) -> Scan:
-        """Return what the lidar with a topic sees at this instant, whatever its rate."""
-        return self._sensors.scan(topic)
-
-    def image(self, topic: str = '') -> Image:
-        """Return the colours that the camera, or that with a topic, sees at this instant."""
-        return self._sensors.image(topic)
-
-    def depth(self, topic: str = '') -> Image:
-        """Return the depths that the camera, or that with a topic, sees at this instant."""
-        return self._sensors.depth(topic)
-
-    def points(self, topic: str = '') -> Points:
-        """Return the cloud that the sensor, or that with a topic, sees at this instant."""
-        return self._sensors.points(topic)
-
-    def contacts(self, topic: str = '') -> list[Contact]:
-        """Return what touches the contact sensor, or that with a topic, at this instant."""
-        return self._sensors.contacts(topic)
-
-    @property
-    def is_moving(self) -> bool:
-        """Whether it moves, by the ground truth."""
-        truth = self.truth
-        return math.hypot(*truth.linear) > _STILL or math.hypot(*truth.angular) > _STILL
-
-    def silent_topics(self) -> list[str]:
-        """Return the topics without a message since :meth:`forget`."""
-        return [topic.topic for topic in self._topics if topic.take() is None]
-
-    def forget(self) -> None:
-        """Drop the messages so far: time went back."""
-        for topic in self._topics:
-            topic.forget()
-
-    def close(self) -> None:
-        """Remove the subscriptions."""
-        for topic in self._topics:
-            topic.close()
-        self._sensors.close()
-
-    @property
-    def _topics(self) -> list[LatestMessage]:
-        return [topic for topic in (self._joints, self._odometry) if topic is not None]
-
-    def _newest(self, topic: LatestMessage | None, controller: str) -> Any:
-        if topic is None:
-            raise SimulationError(f"'{self.name}' began without an active {controller}")
-        if not self._lock_step.time:
-            raise SimulationError(
-                f'nothing is on {topic.topic} at time 0; let time pass: step(), run() or drive()'
-            )
-        found = topic.take()
-        return found or self._lock_step.wait(topic.take, f"a message on '{topic.topic}'", 5.0)
-
-
-def spawn(
-    lock_step: LockStep, description: str, pose: Transform, name: str = '', namespace: str = ''
-) -> str:
-    """
-    Spawn a robot; return the name of the entity.
-
-    Args:
-        lock_step: The simulator.
-        description: The URDF.
-        pose: Transform from the root link to the world.
-        name: Of the entity; empty: that of the URDF.
-        namespace: Of the controller manager; empty: what the URDF says, or none.
-
-    Raises:
-        SimulationError: The simulator rejects the robot.
-    """
-    request = SpawnEntity.Request()
-    fill_pose(pose, request.initial_pose.pose)
-    response = lock_step.ask(
-        SpawnEntity,
-        name=name,
-        entity_namespace=namespace,
-        resource_string=description,
-        initial_pose=request.initial_pose,
-    )
-    return response.entity_name
-
-
-def namespace_of(description: Description, namespace: str = '') -> str:
-    """Return the namespace of a robot, absolute: that which is given, or what its URDF says."""
-    return f'/{namespace.strip("/")}' if namespace else manager_of(description)[0]
-
-
-def _latest(readings: Node, message_type: Any, topic: str) -> LatestMessage | None:
-    return LatestMessage(readings, message_type, topic) if topic else None
-
-
-def _spawn_in(
-    manager: ManagerClient,
-    node: Node,
-    declared: Sequence[DeclaredController],
-    names: Sequence[str] | None,
-) -> None:
-    """Spawn the controllers that are named, or as many of those that are declared as can be."""
-    known = {each.name: each for each in declared}
-    chosen = known if names is None else names
-    wanted = [known.get(name, DeclaredController(name, '')) for name in chosen]
-    if not wanted:
-        return
-    spawner = Spawner(node, manager, parse(spawner_words(wanted)))
-    if names is not None:
-        spawner.spawn()
-        return
-    for line in spawner.spawn_what_can_be():
-        warnings.warn(line, stacklevel=2)
-
-
-def spawn_controllers(
-    lock_step: LockStep,
-    description: Description,
-    files: Sequence[Path],
-    names: Sequence[str] | None,
-    namespace: str = '',
-    bridge: Bridge = NO_BRIDGE,
-) -> Topics:
-    """
-    Load, configure and activate controllers; return the topics of the active ones.
-
-    Args:
-        lock_step: The simulator.
-        description: The robot, which names its manager.
-        files: The parameter files of the controllers.
-        names: The controllers, in order; None: all that the files have types for. One that cannot
-            be, or claims what another one has claimed, is then left out or inactive, with a
-            warning.
-        namespace: Of the controller manager; empty: what the URDF says, or none.
-        bridge: What topics of Gazebo are called.
-
-    Raises:
-        ControllerError, ParameterError: A controller that is named cannot be spawned.
-    """
-    inside, manager_name = namespace_of(description, namespace), manager_of(description)[1]
-    name = f'{inside.rstrip("/")}/{manager_name}'
-    client = ManagerClient(lock_step.node, name, timeout=TIMEOUT, silent=5.0, soon=SERVICES)
-    with closing(client) as manager:
-        declared = declared_controllers(files, inside, manager_name)
-        _spawn_in(manager, lock_step.node, declared, names)
-        listed = manager.query(ListControllers).controller
-    active = [(each.type, each.name) for each in listed if each.state == 'active']
-    drive = next((name for kind, name in active if _drives(kind)), None)
-    broadcaster = next((name for kind, name in active if kind.endswith(_BROADCASTER)), None)
-    node = lock_step.node
-
-    def topic(
-        controller: str | None, find: Callable[[str, str], TopicTypes], message_type: str
-    ) -> str:
-        """Return the topic of a type that the node of a controller has."""
-        if controller is None:
-            return ''
-
-        def found() -> list[str]:
-            if (controller, inside) not in node.get_node_names_and_namespaces():
-                return []
-            return [name for name, types in find(controller, inside) if message_type in types]
-
-        return lock_step.wait(found, f"the {message_type} of '{controller}'")[0]
-
-    publishers = node.get_publisher_names_and_types_by_node
-    subscribers = node.get_subscriber_names_and_types_by_node
-    topics = Topics(
-        command=topic(drive, subscribers, 'geometry_msgs/msg/TwistStamped'),
-        odometry=topic(drive, publishers, 'nav_msgs/msg/Odometry'),
-        joints=topic(broadcaster, publishers, 'sensor_msgs/msg/JointState'),
-    )
-    plugins = bridged(translate(description), bridge)
-    return _with_plugins(topics, plugins, [name for _, name in active], inside)
-
-
-def _drives(controller_type: str) -> bool:
-    """Return whether a type is that of a drive, or ends with it: ``my_package/MyDiffDrive…``."""
-    return class_of(controller_type).endswith(tuple(VELOCITY_TOPICS))
-
-
-def _with_plugins(
-    topics: Topics, plugins: GazeboTranslation, active: Collection[str], namespace: str
-) -> Topics:
-    """Return topics with those of Gazebo's plugins, if active, in place of what is missing."""
-    if topics.command:
-        return topics
-    running = tuple(each for each in plugins.controllers if each.name in active)
-    plugins = replace(plugins, controllers=running)
-    return Topics(
-        command=plugins.twist_topic(namespace),
-        is_stamped=False,
-        odometry=topics.odometry or plugins.odometry_topic(namespace),
-        joints=topics.joints or plugins.joint_states_topic(namespace),
-    )

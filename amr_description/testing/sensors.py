@@ -10,7 +10,6 @@ while time passes they are not made.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,8 +23,9 @@ from amr_description.model.sensors import Camera, WorldSensor
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
+from amr_description.simulation.readings import Contact, Image, Points, Scan
+from amr_description.simulation.tracebacks import is_for_the_test
 from amr_description.testing.lock_step import LockStep
-from amr_description.testing.tracebacks import is_for_the_test
 
 __tracebackhide__ = is_for_the_test
 
@@ -35,52 +35,6 @@ _SCAN, _IMAGE, _CLOUD = (
     'sensor_msgs/msg/PointCloud2',
 )
 _QOS = QoSProfile(depth=10)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Scan:
-    """What a lidar sees; of several rings the middle one."""
-
-    time: float
-    """s, simulated."""
-    frame: str
-    ranges: np.ndarray
-    """m; inf: nothing within reach, -inf: something too near (REP 117)."""
-    angles: np.ndarray
-    """rad, of each range, about the z axis of the frame from x to y."""
-    range_min: float
-    range_max: float
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Image:
-    """What a camera sees."""
-
-    time: float
-    """s, simulated."""
-    frame: str
-    pixels: np.ndarray
-    """Rows from above: colours, (height, width, 3) of 0 to 255 red, green, blue; grey, (height,
-    width); or depths along the optical axis, m, with inf and -inf beyond what it sees."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Points:
-    """A cloud: of a camera, or of a lidar."""
-
-    time: float
-    """s, simulated."""
-    frame: str
-    xyz: np.ndarray
-    """m in the frame: (height, width, 3), of a lidar (rings, samples, 3)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """Two collision shapes that touch, by the names that the message gives them."""
-
-    first: str
-    second: str
 
 
 class RobotReadings:

@@ -5,7 +5,7 @@
 from collections.abc import Iterator
 from math import atan2, hypot, remainder, tau
 
-from amr_description.testing.readings import Motion
+from amr_description.simulation.readings import Motion
 from amr_description.testing.simulation import Simulation
 
 PIECE = 0.1

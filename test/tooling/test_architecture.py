@@ -51,6 +51,8 @@ ARROWS = {
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
     'workspace': set(),
+    # A simulation without ROS: it may import nothing that has any, see below.
+    'simulation': {'controller_manager', 'controllers', 'hardware', 'sim', 'control', 'model'},
     'control/ros': {'ros', 'controller_manager', 'control', 'controllers', 'model'},
     'sim/ros': {
         'bag',  # it records in its own process, without loss
@@ -101,6 +103,7 @@ ARROWS = {
         'doctor/ros',
         'launch_api',
         'control/ros',
+        'controller_manager',
         'controllers',
         'hardware',
         'ros',
@@ -108,7 +111,18 @@ ARROWS = {
         'model',
     },
     # It starts mujoco_sim and check_urdf.
-    'testing': {'bag', 'bringup', 'cli', 'control/ros', 'nodes', 'ros', 'control', 'model'},
+    'testing': {
+        'bag',
+        'bringup',
+        'cli',
+        'control/ros',
+        'controller_manager',
+        'simulation',
+        'nodes',
+        'ros',
+        'control',
+        'model',
+    },  # fmt: skip
 }
 # For nodes and tests of users, under their names in ROS.
 FOR_USERS = {'message_filters', 'sensor_msgs_py', 'ament_copyright'}

@@ -60,7 +60,7 @@ def main(args: Namespace) -> int:
 
 
 def _load(manager: 'ManagerClient', name: str, file: str | None) -> None:
-    from amr_description.control.ros.spawner import (
+    from amr_description.controller_manager.spawner_files import (
         controller_entries,
         manager_parameters,
         not_found,

@@ -30,7 +30,6 @@ of each controller that subscribes to something takes its messages.
 
 ``client.py``                  calls the services of a manager
 ``absence_diagnosis.py``       why a manager does not come, in words
-``spawner.py``                 takes controllers through their states
-``spawner_arguments.py``       the command line of the spawner
+``spawner_lock.py``            two spawners never work on one controller
 ============================== ====================================================================
 """

@@ -21,10 +21,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
+from amr_description.errors import NoAnswerError
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.qos import CLOCK
 from amr_description.ros.rclpy_internals import NodeNameNonExistentError
-from amr_description.ros.service_calls import call, NoAnswerError, wait_until
+from amr_description.ros.service_calls import call, wait_until
 
 Message = TypeVar('Message')
 

@@ -16,19 +16,25 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.control.ros.absence_diagnosis import errors_of, ManagerProbe
-from amr_description.errors import ControllerError
+from amr_description.errors import ControllerError, NoAnswerError
 from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors
 from amr_description.ros.service_calls import (
     ask_until_answered,
     call_with,
     name_of_type,
-    NoAnswerError,
     ServiceReadiness,
     wait_until,
 )
 from amr_description.text import did_you_mean
 
+SPAWNER_SERVICES = (
+    SetParameters,
+    srv.LoadController,
+    srv.ConfigureController,
+    srv.SwitchController,
+)
+"""The types of the services that a spawner calls to activate a controller."""
 _NO_TYPE = 'no type is set for'
 _LOG_PERIOD = 10.0
 """s: how often it is logged that the manager is still not there."""

@@ -23,6 +23,7 @@ from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile
 
 from amr_description.control.interfaces import LifecycleState
+from amr_description.control.plugin_errors import log_error
 from amr_description.control.snapshot import (
     ComponentSnapshot,
     ControllerSnapshot,
@@ -30,7 +31,6 @@ from amr_description.control.snapshot import (
 )
 from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.controllers import CONTROLLERS
-from amr_description.ros.log_thread import log_error
 
 _QOS = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 _BASE_CLASS = 'controller_interface::ControllerInterface'

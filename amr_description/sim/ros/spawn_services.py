@@ -16,6 +16,7 @@ from simulation_interfaces.srv import (
 
 from amr_description.ament_index import OWN_PACKAGE, resolve_uri
 from amr_description.control.contracts import Severity
+from amr_description.control.plugin_errors import log_error
 from amr_description.errors import (
     DescriptionError,
     RequestError,
@@ -25,7 +26,6 @@ from amr_description.errors import (
 )
 from amr_description.model.description_file import description_at
 from amr_description.model.gazebo import ros2_control_host_of
-from amr_description.ros.log_thread import log_error
 from amr_description.ros.messages import transform_of
 from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error

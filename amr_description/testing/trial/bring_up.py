@@ -18,9 +18,10 @@ from controller_manager_msgs.msg import ControllerState
 from controller_manager_msgs.srv import ListControllers
 
 from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner import Spawner
-from amr_description.control.ros.spawner_arguments import parse
+from amr_description.controller_manager.spawner import Spawner
+from amr_description.controller_manager.spawner_arguments import parse
 from amr_description.errors import AmrError
+from amr_description.ros.log_thread import LoggerLog
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.findings import ControllerFinding
 
@@ -130,7 +131,7 @@ class BringUp:
         if not is_known:
             words += ['--param-file', str(self._self_typed[finding.name])]
         try:
-            Spawner(self._sim.node, self._manager, parse(words)).spawn()
+            Spawner(LoggerLog(self._sim.node.get_logger()), self._manager, parse(words)).spawn()
         except AmrError as error:
             finding.reason = str(error)
 

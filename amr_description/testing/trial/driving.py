@@ -19,8 +19,9 @@ from nav_msgs.msg import Odometry
 
 from amr_description.errors import AmrError, SimulationError
 from amr_description.model.frames import conjugate, rotate, yaw_of
+from amr_description.simulation.readings import Motion
 from amr_description.testing.lock_step import LatestMessage
-from amr_description.testing.readings import Motion, motion_of_odometry
+from amr_description.testing.readings import motion_of_odometry
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active
 from amr_description.testing.trial.findings import MotionResult

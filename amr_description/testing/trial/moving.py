@@ -23,8 +23,9 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from amr_description.errors import AmrError
 from amr_description.model.robot import Joint, JointType
 from amr_description.ros.service_calls import ActionReadiness
+from amr_description.simulation.readings import Joint as State
 from amr_description.testing.lock_step import LatestMessage
-from amr_description.testing.readings import Joint as State, joints_of
+from amr_description.testing.readings import joints_of
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active
 from amr_description.testing.trial.findings import MotionResult

@@ -17,8 +17,8 @@ from support.serving import serving
 
 from amr_description.control.ros import absence_diagnosis
 from amr_description.control.ros.client import ManagerClient
-from amr_description.errors import ControllerError
-from amr_description.ros.service_calls import NoAnswerError, wait_until
+from amr_description.errors import ControllerError, NoAnswerError
+from amr_description.ros.service_calls import wait_until
 
 TIMED_OUT = 'Switch controller timed out after 5 seconds!'
 

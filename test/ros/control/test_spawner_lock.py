@@ -9,8 +9,8 @@ import pytest
 from rclpy.node import Node
 from support.manager_host import ros_in_this_process
 
-from amr_description.control.ros import spawner
-from amr_description.control.ros.spawner import exclusive_lock
+from amr_description.control.ros import spawner_lock
+from amr_description.control.ros.spawner_lock import exclusive_lock
 
 MANAGER = '/left/controller_manager'
 
@@ -56,7 +56,7 @@ def test_a_lock_is_for_one_controller_of_one_manager_in_one_domain(node, home):
 
 
 def test_whoever_waits_says_for_whom_and_goes_on_when_that_one_ends(node, home, monkeypatch):
-    monkeypatch.setattr(spawner, '_LOG_PERIOD', 0.05)
+    monkeypatch.setattr(spawner_lock, '_LOG_PERIOD', 0.05)
     with exclusive_lock(node, MANAGER, ['a']):
         (path,) = (home / 'locks').iterdir()
     lines = []

@@ -22,13 +22,13 @@ from support.serving import serving
 from support.waiting import until
 from tf2_msgs.action import LookupTransform
 
+from amr_description.errors import NoAnswerError
 from amr_description.ros import service_calls
 from amr_description.ros.service_calls import (
     ActionReadiness,
     ask_until_answered,
     call,
     call_with,
-    NoAnswerError,
     ServiceReadiness,
     wait_until,
 )

@@ -14,10 +14,14 @@ from support.manager_host import ros_in_this_process, running_host
 from support.ros_processes import command, environment, PATIENCE, run
 from support.running_programs import Program
 
-from amr_description.control.ros.spawner import claimed_by_others, in_order_of_chains, Spawner
-from amr_description.control.ros.spawner_arguments import parse
-from amr_description.errors import ControllerError, ParameterError
-from amr_description.ros.service_calls import call, NoAnswerError
+from amr_description.controller_manager.spawner import (
+    claimed_by_others,
+    in_order_of_chains,
+    Spawner,
+)
+from amr_description.controller_manager.spawner_arguments import parse
+from amr_description.errors import ControllerError, NoAnswerError, ParameterError
+from amr_description.ros.service_calls import call
 
 JOINTS, DRIVE = 'joint_state_broadcaster', 'diff_drive_controller'
 TYPE = 'diff_drive_controller/DiffDriveController'
@@ -44,14 +48,13 @@ def nothing_loaded(host):
 
 
 class Voice:
-    """A node that only speaks, and the logger of it; :meth:`said` since last time."""
+    """A log that keeps its lines; :meth:`said` since last time."""
 
     def __init__(self):
         self.lines = []
-        self.info = self.warning = self.lines.append
 
-    def get_logger(self):
-        return self
+    def __call__(self, severity, text, *, throttle=0.0):
+        self.lines.append(text)
 
     def said(self):
         said, self.lines[:] = list(self.lines), []

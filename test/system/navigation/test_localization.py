@@ -28,7 +28,7 @@ from amr_description.navigation.ros.messages import plane_pose, pose_message, po
 from amr_description.navigation.scan_matching import ScanMatcher
 from amr_description.ros.messages import nanoseconds
 from amr_description.sim.occupancy import map_of_world
-from amr_description.testing.readings import Motion
+from amr_description.simulation.readings import Motion
 from amr_description.testing.simulation import Simulation
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.listener import TransformListener

@@ -25,8 +25,9 @@ from simulation_interfaces.srv import (
 from support.ros_processes import PATIENCE, run, running
 from support.simulator import SIMULATOR, Simulator, URDF
 
+from amr_description.errors import NoAnswerError
 from amr_description.ros.qos import SERVICE_CLIENT
-from amr_description.ros.service_calls import ask_until_answered, NoAnswerError
+from amr_description.ros.service_calls import ask_until_answered
 
 CLIENTS, REQUESTS = 4, 40
 CONTROLLERS = ('joint_state_broadcaster', 'diff_drive_controller')

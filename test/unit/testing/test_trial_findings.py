@@ -10,7 +10,7 @@ import pytest
 
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.model.robot import Joint, JointType, Limit
-from amr_description.testing.readings import Motion
+from amr_description.simulation.readings import Motion
 from amr_description.testing.trial.bring_up import logged
 from amr_description.testing.trial.driving import travel
 from amr_description.testing.trial.findings import (

@@ -5,7 +5,7 @@
 import pytest
 import yaml
 
-from amr_description.control.ros.spawner import (
+from amr_description.controller_manager.spawner_files import (
     controller_entries,
     files_in_arguments,
     manager_parameters,

@@ -3,46 +3,90 @@
 """
 What ``spawner`` does: take controllers through their states, with their parameter files.
 
-Two spawners of this host never work on one controller at the same time: one would configure it
-anew while the other activates it (:func:`exclusive_lock`). Spawners of other controllers, and of
-other robots, do not wait for each other; ros2_control has a single lock for the whole machine.
+It asks a manager by what a client of its services has, or a manager of the same process.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, ExitStack
-import fcntl
-from itertools import pairwise
-import os
-from pathlib import Path
 import sys
-from typing import Any
-
-from controller_manager_msgs import srv
-from controller_manager_msgs.msg import ControllerState
-from rcl_interfaces.srv import SetParameters
-from rclpy.node import Node
+from typing import Protocol
 
 from amr_description.colors import BLUE, colored, CYAN, GREEN, YELLOW
-from amr_description.control.ros.client import ManagerClient
-from amr_description.control.ros.spawner_arguments import ControllerPlan, SpawnOptions
-from amr_description.errors import ControllerError, ParameterError
-from amr_description.parameter_files import EVERY_NODE, read_parameter_file, sections
-from amr_description.ros.service_calls import NoAnswerError, wait_until
-from amr_description.ros_arguments import ros_arguments
+from amr_description.control.contracts import Log, Severity
+from amr_description.controller_manager.spawner_arguments import ControllerPlan, SpawnOptions
+from amr_description.controller_manager.spawner_files import (
+    controller_entries,
+    manager_parameters,
+    not_found,
+)
+from amr_description.errors import ControllerError, NoAnswerError, ParameterError
 
-SERVICES = (SetParameters, srv.LoadController, srv.ConfigureController, srv.SwitchController)
-"""The types of the services that it calls to activate a controller."""
-_LOG_PERIOD = 10.0
-"""s: how often it is logged that another one has the lock."""
+
+class ControllerState(Protocol):
+    """A controller, with the names of ``controller_manager_msgs/msg/ControllerState``."""
+
+    name: str
+    type: str
+    state: str
+    claimed_interfaces: Sequence[str]
+    required_command_interfaces: Sequence[str]
+    required_state_interfaces: Sequence[str]
+
+
+class Manager(Protocol):
+    """What a spawner asks of a controller manager."""
+
+    name: str
+    """Full, of its node."""
+    namespace: str
+
+    def is_there(self) -> bool:
+        """Return whether it is still there."""
+
+    def states(self) -> dict[str, str]:
+        """Return the states of all loaded controllers, by their names."""
+
+    def controllers(self) -> Mapping[str, ControllerState]:
+        """Return all loaded controllers, by their names."""
+
+    def has_type(self, controller: str) -> bool:
+        """Return whether the manager's parameters hold a type for a controller."""
+
+    def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
+        """Set ``<controller>.<key>`` at the manager. Raises ControllerError."""
+
+    def load(self, name: str) -> bool:
+        """Load a controller."""
+
+    def configure(self, name: str) -> bool:
+        """Configure a controller."""
+
+    def unload(self, name: str) -> bool:
+        """Unload a controller."""
+
+    def switch(
+        self,
+        *,
+        activate: Sequence[str] = (),
+        deactivate: Sequence[str] = (),
+        timeout: float = 5.0,
+        activate_asap: bool = True,
+    ) -> str | None:
+        """Switch with strictness STRICT; return ``None``, or why it failed."""
+
+    def reasons(self, controller: str) -> str:
+        """Return why the last load failed; empty: it is not known."""
+
+    def logged(self, *nodes: str) -> str:
+        """Return what the manager, and nodes beside it, have logged as errors; empty: nothing."""
 
 
 class Spawner:
     """Takes controllers through their states; ``files``: parameter files for all of them."""
 
     def __init__(
-        self, node: Node, manager: ManagerClient, options: SpawnOptions, files: Sequence[str] = ()
+        self, log: Log, manager: Manager, options: SpawnOptions, files: Sequence[str] = ()
     ) -> None:
-        self._log = node.get_logger()
+        self._log = log
         self._manager = manager
         self._options = options
         self._files = tuple(files)
@@ -58,7 +102,7 @@ class Spawner:
         """
         if self._options.continue_on_error:
             for line in self.spawn_what_can_be(stopped):
-                self._log.warning(line)
+                self._log(Severity.WARN, line)
             return
         group = []
         for plan in self._options.plans:
@@ -120,26 +164,26 @@ class Spawner:
             if self._manager.is_there():
                 raise
         # As when a Ctrl-C ends a whole stack.
-        self._log.info(f'{self._manager.name} is gone, and its controllers with it')
+        self._log(Severity.INFO, f'{self._manager.name} is gone, and its controllers with it')
 
     def _unload(self) -> None:
         states = self._manager.states()
         loaded = [plan.name for plan in self._options.plans if plan.name in states]
         active = [name for name in loaded if states[name] == 'active']
         if not loaded:
-            self._log.info('No active controllers to unload.')
+            self._log(Severity.INFO, 'No active controllers to unload.')
             return
         if active:
-            self._log.info('Deactivating and unloading controllers...')
+            self._log(Severity.INFO, 'Deactivating and unloading controllers...')
             message = self._switch(deactivate=active)
             if message is not None:
                 raise ControllerError(f'Failed to deactivate controller : {active}: {message}')
-            self._log.info(f'Successfully deactivated controllers : {active}')
+            self._log(Severity.INFO, f'Successfully deactivated controllers : {active}')
         failed = [name for name in loaded if not self._manager.unload(name)]
         if failed:
             reason = self._manager.logged(*failed) or 'see the log of the manager'
             raise ControllerError(f'Failed to unload controller : {", ".join(failed)}: {reason}')
-        self._log.info(f'Successfully unloaded controllers : {loaded}')
+        self._log(Severity.INFO, f'Successfully unloaded controllers : {loaded}')
 
     def _prepare(self, plan: ControllerPlan) -> bool:
         """Load and configure a controller; return whether it is now to be activated."""
@@ -151,9 +195,9 @@ class Spawner:
                 raise ControllerError(self._failure(f'Failed loading controller {name}', name))
             self._log_colored(BLUE, f'Loaded {name}')
         else:
-            self._log.warning(yellow('Controller already loaded, skipping load_controller'))
+            self._log(Severity.WARN, yellow('Controller already loaded, skipping load_controller'))
         if state == 'active':
-            self._log.info(f'Controller {name} is active already; nothing to do')
+            self._log(Severity.INFO, f'Controller {name} is active already; nothing to do')
             return False
         if plan.load_only:
             return False
@@ -191,7 +235,7 @@ class Spawner:
         if plan.files and not entries:
             if not self._manager.has_type(name):
                 raise ParameterError(not_found(name, files))
-            self._log.info(f'{not_found(name, files)}; the manager knows its type')
+            self._log(Severity.INFO, f'{not_found(name, files)}; the manager knows its type')
         parameters |= manager_parameters(name, entries)
         self._manager.set_parameters(name, parameters)
         for key, value in parameters.items():
@@ -202,7 +246,7 @@ class Spawner:
         return f'{what}: {reasons}' if reasons else f'{what}: see the log of the manager'
 
     def _log_colored(self, color: str, text: str) -> None:
-        self._log.info(colored(text, color, sys.stderr))
+        self._log(Severity.INFO, colored(text, color, sys.stderr))
 
 
 def in_order_of_chains(
@@ -237,135 +281,6 @@ def claimed_by_others(
         if other.name != name and common:
             return other.name, common
     return '', []
-
-
-@contextmanager
-def exclusive_lock(node: Node, manager: str, controllers: Sequence[str]) -> Iterator[None]:
-    """
-    Be the only spawner of these controllers of ``manager`` (an absolute name) while inside.
-
-    The locks are files in ``$ROS_HOME/locks`` (``~/.ros/locks``), and end with the process, in any
-    case. Where that folder cannot be written there is no lock.
-    """
-    prefix = f'{node.context.get_domain_id()}{manager.replace("/", ".")}'
-    with ExitStack() as stack:
-        for name in sorted(set(controllers)):  # in one order, so that no two wait in a circle
-            try:
-                path = _folder() / f'spawner.{prefix}.{name}.lock'
-                file = stack.enter_context(path.open('a'))
-            except (OSError, RuntimeError) as error:
-                node.get_logger().debug(f'without a lock: {error}')
-                continue
-            _acquire(node, file.fileno(), f'controller {name} of {manager} ({path})')
-        yield
-
-
-def _folder() -> Path:
-    """Return the folder of the locks. Raises OSError; RuntimeError where nobody has a home."""
-    folder = Path(os.environ.get('ROS_HOME') or Path.home() / '.ros') / 'locks'
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
-
-
-def _acquire(node: Node, descriptor: int, what: str) -> None:
-    def taken() -> bool | None:
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return None
-        return True
-
-    def log_wait() -> None:
-        node.get_logger().warning(f'Waiting for the spawner that works on {what}')
-
-    wait_until(node, taken, log_wait, every=_LOG_PERIOD)
-
-
-def files_in_arguments(words: Sequence[str]) -> list[str]:
-    """Return the files behind ``--params-file`` among the ROS arguments of a command line."""
-    pairs = pairwise(ros_arguments(words))
-    return [str(Path(file).absolute()) for flag, file in pairs if flag == '--params-file']
-
-
-def controller_entries(
-    name: str, files: Sequence[str], namespace: str
-) -> dict[str, dict[str, Any]]:
-    """
-    Return a controller's parameters in each of the files that have any.
-
-    Raises ParameterError: a file is no good, or all that speak of the controller lack the
-    ``namespace`` that it has.
-    """
-    entries, lacking = {}, False
-    for path in dict.fromkeys(files):
-        content = _read(name, path, namespace)
-        parameters = parameters_of(name, content, namespace)
-        if parameters is not None:
-            entries[path] = parameters
-        lacking |= parameters is None and name in content
-    if lacking and not entries:
-        raise ParameterError(
-            f'Missing namespace : {namespace} or wildcard in parameter file for controller : '
-            f'{name}'
-        )
-    return entries
-
-
-def not_found(name: str, files: Sequence[str]) -> str:
-    """Return the message that no file has parameters for a controller."""
-    return f'Controller : {name} parameters not found in parameter files : {list(files)}'
-
-
-def manager_parameters(
-    name: str, entries: Mapping[str, Mapping[str, Any]]
-) -> dict[str, str | list[str]]:
-    """
-    Return what to set at the manager before it loads a controller, below the controller's name.
-
-    ``entries``: of :func:`controller_entries`. The first file that names a type or fallback
-    controllers counts. Raises ParameterError: one of these is no text.
-    """
-    if not entries:
-        return {}
-    parameters: dict[str, str | list[str]] = {'params_file': list(entries)}
-    for path, entry in entries.items():
-        if entry.get('type') and 'type' not in parameters:
-            parameters['type'] = _text(entry['type'], name, 'type', path)
-        if entry.get('fallback_controllers') and 'fallback_controllers' not in parameters:
-            found = entry['fallback_controllers']
-            names = found if isinstance(found, list) else [found]
-            parameters['fallback_controllers'] = [
-                _text(each, name, 'fallback_controllers', path) for each in names
-            ]
-    return parameters
-
-
-def parameters_of(name: str, content: Mapping[str, Any], namespace: str) -> dict[str, Any] | None:
-    """Return the parameters of a controller in the content of one file, or ``None``."""
-    node = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
-    found = [section for section in sections(content) if section.is_of(node)]
-    if not found:
-        return None
-    # Its own name comes before patterns, and these before the one that is for all nodes.
-    own = min(found, key=lambda each: (each.pattern == EVERY_NODE, '*' in each.pattern))
-    return dict(own.parameters or {})
-
-
-def _read(name: str, path: str, namespace: str) -> dict[str, Any]:
-    try:
-        return read_parameter_file(Path(path))
-    except ParameterError as error:
-        node = f'{namespace.rstrip("/")}/{name}'
-        raise ParameterError(
-            f'YAML file : {path} is not a valid ROS parameter file for controller node : {node}: '
-            f'{error}'
-        ) from error
-
-
-def _text(value: Any, name: str, key: str, path: str) -> str:
-    if not isinstance(value, str):
-        raise ParameterError(f"'{key}' of controller {name} in {path} is {value!r}, not a name")
-    return value
 
 
 def yellow(text: str) -> str:

@@ -6,7 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from amr_description.control.ros.spawner_arguments import ControllerPlan, parse, SpawnOptions
+from amr_description.controller_manager.spawner_arguments import (
+    ControllerPlan,
+    parse,
+    SpawnOptions,
+)
 from amr_description.errors import ParameterError
 
 DEFAULTS = SpawnOptions(
