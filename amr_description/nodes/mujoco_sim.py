@@ -40,13 +40,13 @@ from amr_description.sim.ros.entity_services import EntityServices
 from amr_description.sim.ros.other_clock import Other, OtherClock
 from amr_description.sim.ros.simulation import (
     Simulation,
-    SimulationParameters,
     SimulationState,
 )
 from amr_description.sim.ros.simulation_services import SimulationServices, WorldServices
 from amr_description.sim.ros.spawn_services import SpawnServices
 from amr_description.sim.ros.world_markers import WorldPublisher
 from amr_description.sim.ros.wrench_topics import WrenchTopics
+from amr_description.simulation.parameters import SimulationParameters
 from amr_description.streams import never_wait_for_stderr
 
 FEATURES = (

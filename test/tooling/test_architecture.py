@@ -59,6 +59,7 @@ ARROWS = {
         'bag/ros',
         'control/ros',
         'ros',
+        'simulation',
         'sim',
         'controller_manager',
         'control',

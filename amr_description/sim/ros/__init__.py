@@ -6,7 +6,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 =========================== =======================================================================
 ``simulation.py``           the simulation in a process: world, robots, control thread, ``/clock``
 ``entities.py``             robots are spawned and removed, each with its controller manager
-``plugin_controllers.py``   starts the controllers that stand for Gazebo's plugins
+``executor_tasks.py``       coroutines of one executor that another one awaits
 ``other_clock.py``          ends, or warns, where another simulator publishes ``/clock``
 ``run_recording.py``        begins and ends recordings, as the parameter ``record`` says
 ``link_transforms.py``      transforms of links, for a recording

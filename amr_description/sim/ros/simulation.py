@@ -16,7 +16,6 @@ QUITTING  the process ends
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 import enum
 from typing import Any
 
@@ -24,20 +23,16 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.ament_index import path_of
 from amr_description.bag.run_description import RunDescription, RunRobot
-from amr_description.control.contracts import Log, Severity
+from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import WallPacer
-from amr_description.errors import ParameterError, ResourceError, SimulationError
-from amr_description.model.gazebo_bridge import Bridge, NO_BRIDGE, read_bridge
-from amr_description.parameters import group, parameter, specs
+from amr_description.parameters import specs
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
-from amr_description.sim.cameras import CHOICES
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.link_transforms import LinkTransforms, SpawnedRobot
@@ -45,93 +40,11 @@ from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.ros.run_recording import controllers_text, on_loop, RunRecording
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import WorldSettings
-
-CLOCK_PERIOD = 10_000_000
-"""ns: the longest time between two messages on ``/clock``."""
+from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
+from amr_description.simulation.worlds import bridge_of, world_of
 
 PAUSED_CLOCK_PERIOD = 0.1
 """s of the wall clock between two messages on ``/clock`` while paused."""
-
-
-@dataclass(frozen=True)
-class SimulationParameters:
-    """The parameters of the node ``mujoco_sim``."""
-
-    world: str = parameter('empty', 'A shipped world, or the path of an MJCF file', read_only=True)
-    physics: WorldSettings = group('physics', WorldSettings)
-    real_time_factor: float = parameter(
-        1.0,
-        'Simulated seconds per second of the wall clock; 0: as fast as possible',
-        minimum=0.0,
-        magnitude=(1e-9, 1e6),
-    )
-    paused: bool = parameter(
-        False, 'Begin with time standing still, until ~/set_simulation_state', read_only=True
-    )
-    controllers: str = parameter(
-        '',
-        'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
-        'names, else that of this package, if it is for this robot',
-        read_only=True,
-    )
-    bridge: str = parameter(
-        '',
-        'Configuration file of ros_gz_bridge, by which topics of sensors and plugins of Gazebo '
-        'are called; empty: as they are usually bridged',
-        read_only=True,
-    )
-    strict: bool = parameter(
-        False,
-        'Refuse a description that would have to be taken as something else, such as a link that '
-        'moves and has no mass; else that is said, and it is spawned',
-        read_only=True,
-    )
-    mock_hardware: str = parameter(
-        'simulate',
-        'Whether mock_components/GenericSystem is simulated as any other hardware, or is a mock, '
-        'whose states follow commands while the robot in the world stands still',
-        choices=('simulate', 'mock'),
-        read_only=True,
-    )
-    lift: bool = parameter(
-        True,
-        'Whether a robot that would be spawned inside the ground, or another static body, is '
-        'lifted until it is free; else it is refused',
-        read_only=True,
-    )
-    on_fault: str = parameter(
-        'continue',
-        'What the simulation does when the physics goes wrong, beside saying so',
-        choices=('continue', 'pause'),
-    )
-    record: str = parameter(
-        '',
-        'Folder of a bag to which the run is recorded from now on, in simulated time and '
-        'without loss; empty: end the recording',
-    )
-    record_regex: str = parameter(
-        '', 'Of the names of topics: which are recorded; empty: all, pictures of cameras, too'
-    )
-    record_exclude_regex: str = parameter('', 'Of the names of topics: which are not recorded')
-    seed: int = parameter(
-        0, 'From which the noise of every sensor follows', minimum=0, read_only=True
-    )
-    camera_renderer: str = parameter(
-        'auto',
-        'What makes the pictures of cameras: OpenGL, or rays, which need none, and give the same '
-        'bits on each machine; auto: OpenGL where it works',
-        choices=CHOICES,
-        read_only=True,
-    )
-    ground_truth_rate: float = parameter(
-        50.0,
-        'Rate of ground_truth/odom and ground_truth/wheels of every robot; 0: none',
-        unit='Hz',
-        minimum=0.0,
-        magnitude=(1e-3, 1e5),
-        read_only=True,
-    )
 
 
 _OF_THE_PROCESS = {
@@ -192,7 +105,7 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             publisher = self.publisher = ClockedLoopPublisher(node)
             publisher.adopt(node)
-            self.world, self.world_name = _world_of(parameters, self.log), parameters.world
+            self.world, self.world_name = world_of(parameters, self.log), parameters.world
             ground_truth = self._ground_truth = GroundTruth(
                 node, publisher, self.world, parameters.ground_truth_rate, self._has_ticked
             )
@@ -232,7 +145,7 @@ class Simulation:
             executor=self._executor,
             log=self.log,
             controllers=self.parameters.controllers,
-            bridge=_bridge_of(self.parameters),
+            bridge=bridge_of(self.parameters),
             simulates_mocks=self.parameters.mock_hardware == 'simulate',
             lift=self.parameters.lift,
             ros_args=ros_args,
@@ -432,23 +345,3 @@ class Simulation:
                 'paused, as on_fault says; ~/set_simulation_state lets time go on, '
                 '~/reset_simulation begins anew',
             )
-
-
-def _bridge_of(parameters: SimulationParameters) -> Bridge:
-    """Return what topics are called in ROS. Raises SimulationError."""
-    if not parameters.bridge:
-        return NO_BRIDGE
-    try:
-        return read_bridge(path_of(parameters.bridge, 'bridge'))
-    except (ParameterError, ResourceError) as error:
-        raise SimulationError(str(error)) from error
-
-
-def _world_of(parameters: SimulationParameters, log: Log) -> MujocoWorld:
-    return MujocoWorld(
-        parameters.world,
-        settings=parameters.physics,
-        seed=parameters.seed,
-        strict=parameters.strict,
-        log=log,
-    )

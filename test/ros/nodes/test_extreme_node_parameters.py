@@ -36,8 +36,8 @@ from amr_description.parameters import build, specs
 from amr_description.ros.parameters import declare, declare_missing
 from amr_description.ros.runtime import argument_errors
 from amr_description.sim.ros.ground_truth import GroundTruth
-from amr_description.sim.ros.simulation import SimulationParameters
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.parameters import SimulationParameters
 
 FLOATS = (1e300, 1e-300, -1e300, -1e-300, 5e-324, math.inf, -math.inf, math.nan, 0.0)
 INTEGERS = (2**63 - 1, -(2**63), 2**31, -1, 0)

@@ -7,17 +7,12 @@ Gazebo's plugins work from the first moment on, without a spawner; so do these. 
 ``ros2 control`` they are controllers as all others: they can be listed, switched off and unloaded.
 """
 
-from collections.abc import Coroutine, Sequence
+from collections.abc import Sequence
 import json
-from typing import Any
-
-from rclpy.executors import Executor
-from rclpy.parameter import Parameter
-from rclpy.task import Future
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.ros.controller_manager_node import RunningManager
 from amr_description.control.switching import Strictness
+from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.errors import AmrError
 from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
 from amr_description.model.sensors import frame_in
@@ -28,24 +23,24 @@ _SWITCH_TIMEOUT = 5_000_000_000
 
 
 async def start_controllers(
-    running: RunningManager, controllers: Sequence[PluginController], log: Log
+    requests: ManagerRequests, controllers: Sequence[PluginController], namespace: str, log: Log
 ) -> None:
     """
     Load, configure and activate controllers, in this order, on the thread of their manager.
 
+    Args:
+        requests: Of the manager.
+        controllers: To be started.
+        namespace: Of the manager.
+        log: Of the simulator.
+
     One that cannot be started is logged; the robot and the others work without it, as in Gazebo.
     """
-    requests, node = running.requests, running.node
+    store = requests.parameters.store
     for each in controllers:
-        node.set_parameters(
-            [
-                Parameter(f'{each.name}.type', value=each.type),
-                Parameter(
-                    f'{each.name}.node_options_args',
-                    value=node_arguments(each, node.get_namespace(), requests.manager.update_rate),
-                ),
-            ]
-        )
+        store.set(f'{each.name}.type', each.type)
+        arguments = node_arguments(each, namespace, requests.manager.update_rate)
+        store.set(f'{each.name}.node_options_args', arguments)
         try:
             await requests.load(each.name)
             await requests.configure(each.name)
@@ -93,41 +88,3 @@ def log_translation(robot: str, translation: GazeboTranslation, namespace: str, 
         log(Severity.WARN, f"'{robot}': {note}")
     if translation.not_simulated:
         log(Severity.WARN, f"'{robot}': {translation.not_simulated}")
-
-
-def run_in(executor: Executor, work: Coroutine[Any, Any, None], waiting: Executor) -> Future:
-    """
-    Run a coroutine in one executor; return what a coroutine of another one can await.
-
-    Args:
-        executor: Of the node that the coroutine is about; its thread runs.
-        work: The coroutine.
-        waiting: The executor of the one that awaits.
-    """
-    done = Future(executor=waiting)
-
-    async def run() -> None:
-        try:
-            await work
-        except Exception as error:  # raised again where the future is awaited
-            done.set_exception(error)
-        finally:  # it may be closed, as its robot is removed
-            if not done.done():
-                done.set_result(None)
-            waiting.wake()  # a task that awaits is looked at only when the executor wakes
-
-    executor.create_task(run())
-    return done
-
-
-def abandon(done: Future, waiting: Executor) -> None:
-    """
-    End the wait for what :func:`run_in` was to run, where its executor runs no more.
-
-    Args:
-        done: What :func:`run_in` has returned; it may be done.
-        waiting: The executor of the one that awaits it.
-    """
-    if not done.done():
-        done.set_result(None)
-        waiting.wake()

@@ -1,0 +1,86 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The ROS arguments of the manager of a simulated robot: above all its parameter files."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from amr_description.control.contracts import Log, Severity
+from amr_description.controllers.drive_files import drive_warnings
+from amr_description.controllers.roller_files import rollers_of_controllers, rollers_of_plugins
+from amr_description.model.controller_files import files_of, missing_files, named_files
+from amr_description.model.gazebo import ros2_control_host_of
+from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.hardware_info import HardwareInfo
+from amr_description.model.robot import Robot
+from amr_description.model.rollers import Rollers
+from amr_description.parameter_files import read_parameter_file
+from amr_description.text import quote_all
+
+
+def manager_arguments(
+    robot: Robot,
+    hardware: Sequence[HardwareInfo],
+    namespace: str,
+    translation: GazeboTranslation,
+    *,
+    controllers: str,
+    ros_args: Sequence[str],
+    log: Log,
+) -> list[str]:
+    """
+    Return the ROS arguments of a robot's manager.
+
+    Args:
+        robot: Its description.
+        hardware: What its ``<ros2_control>`` blocks say.
+        namespace: Of the manager.
+        translation: What stands for plugins of Gazebo.
+        controllers: Path of the parameter file, or empty.
+        ros_args: ROS arguments for every manager and controller.
+        log: Of the simulator.
+
+    Raises:
+        ParameterError: A parameter file cannot be read.
+    """
+    host = ros2_control_host_of(robot)
+    rules = [word for rule in host.remappings for word in ('-r', rule)]
+    arguments = [*ros_args, *rules]
+    if namespace.strip('/'):  # several managers publish on one /diagnostics
+        arguments += ['-p', 'diagnostic_updater.use_fqn:=true']
+    if len(hardware) > len(robot.plugin_hardware) or controllers:
+        arguments += _parameter_files(robot, controllers, log)
+    else:  # Gazebo's plugins are all that it has
+        arguments += ['-p', f'update_rate:={translation.update_rate}']
+    return arguments
+
+
+def rollers_of(
+    robot: Robot, translation: GazeboTranslation, controllers: str
+) -> Mapping[str, Rollers]:
+    """Return the rollers of wheels of which only the parameters of a controller tell."""
+    paths = [controllers] if controllers else [str(path) for path in files_of(robot)]
+    return rollers_of_controllers(robot, paths) | rollers_of_plugins(translation)
+
+
+def _parameter_files(robot: Robot, controllers: str, log: Log) -> Sequence[str]:
+    """Return ``--params-file`` arguments: of the parameter, else the URDF, else shipped."""
+    paths = [controllers] if controllers else _files_of(robot, log)
+    for path in paths:
+        read_parameter_file(Path(path))  # its errors have a line number, rcl's have none
+    for finding in drive_warnings(robot, paths):
+        log(Severity.WARN, finding.text)
+    return [argument for path in paths for argument in ('--params-file', path)]
+
+
+def _files_of(robot: Robot, log: Log) -> list[str]:
+    """Return the parameter files of a robot for which none is given; say if it has none."""
+    found, missing = files_of(robot), missing_files(named_files(robot))
+    remedy = 'is given by the parameter controllers of the simulator'
+    if missing:
+        why = f'a parameter file that it names is not there: {quote_all(missing)}; another one'
+        log(Severity.WARN, f'{robot.source}: {why} {remedy}')
+    elif not found:
+        why = 'it names no parameter file for its controllers; one'
+        log(Severity.WARN, f'{robot.source}: {why} {remedy}')
+    return [str(path) for path in found]
