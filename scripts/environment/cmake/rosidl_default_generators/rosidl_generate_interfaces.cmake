@@ -5,6 +5,7 @@
 # cmake_target.py, which is named by the list AMR_INTERFACE_BUILD.
 
 find_package(ament_cmake REQUIRED)
+find_package(ament_cmake_python REQUIRED)
 # The one that wheels of messages come with: found later, it would take the place of this one.
 find_package(rosidl_cmake QUIET)
 
@@ -70,11 +71,10 @@ macro(rosidl_generate_interfaces target)
     ament_index_register_resource("rosidl_interfaces" CONTENT "${_amr_index}")
     ament_export_dependencies(${_amr_DEPENDENCIES})
     set(PYTHON_INSTALL_DIR "${AMR_PYTHON_INSTALL_DIR}")
-    set(AMENT_CMAKE_ENVIRONMENT_HOOKS_DESC_pythonpath
-      "prepend-non-duplicate;PYTHONPATH;${AMR_PYTHON_INSTALL_DIR}")
-    ament_environment_hooks(
-      "${ament_cmake_package_templates_ENVIRONMENT_HOOK_LIBRARY_PATH}"
-      "${ament_cmake_package_templates_ENVIRONMENT_HOOK_PYTHONPATH}")
+    # That of ament_cmake_python, which registers once: ament_python_install_package() may be called
+    # too, and for a package of this name.
+    _ament_cmake_python_register_environment_hook()
+    ament_environment_hooks("${ament_cmake_package_templates_ENVIRONMENT_HOOK_LIBRARY_PATH}")
     foreach(_amr_folder lib include share/${PROJECT_NAME})
       install(DIRECTORY "${_amr_build}/stage/${_amr_folder}/" DESTINATION "${_amr_folder}"
         PATTERN "package.xml" EXCLUDE PATTERN "cmake" EXCLUDE)
