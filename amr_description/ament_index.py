@@ -18,7 +18,7 @@ from pathlib import Path
 import re
 from urllib.parse import unquote, urlsplit
 
-from amr_description.errors import ResourceError
+from amr_description.errors import ResourceError, SimulationError
 from amr_description.text import did_you_mean, shorten, suggestion
 
 OWN_PACKAGE = 'amr_description'
@@ -283,6 +283,24 @@ def path_of(file: str, argument: str = '') -> Path:
         near = [each.name for each in path.parent.glob('*')]
         raise ResourceError(f'{asked}: no such file: {path}{did_you_mean(path.name, near)}')
     return path
+
+
+def shipped_worlds() -> dict[str, Path]:
+    """Return the worlds of this package: name → file."""
+    folder = own_share() / 'config' / 'worlds'
+    return {path.stem: path for path in sorted(folder.glob('*.xml'))}
+
+
+def world_path(world: str) -> Path:
+    """Return the file of a world, given by shipped name or path. Raises SimulationError."""
+    shipped = shipped_worlds()
+    path = shipped.get(world) or Path(world).expanduser()
+    if path.is_file():
+        return path
+    raise SimulationError(
+        f"world '{world}': neither a file nor a shipped world{did_you_mean(world, [*shipped])}; "
+        f'shipped are: {", ".join(shipped)}'
+    )
 
 
 def _executables_below(folder: Path) -> Iterator[Path]:

@@ -88,6 +88,19 @@ def controllers_file(controllers: str, urdf: str, description: str) -> Path:
     )
 
 
+def absent_file(description: str) -> str:
+    """Return the parameter file that a URDF names in vain; '': there is one, or none is named."""
+    from amr_description.model.controller_files import existing_files, missing_files, named_files
+    from amr_description.model.urdf import parse
+
+    try:
+        named = named_files(parse(description))
+    except DescriptionError:  # the node that reads it says where, and what would do
+        return ''
+    missing = missing_files(named)
+    return missing[0] if missing and not existing_files(named) else ''
+
+
 def require_namespaces(file: Path, namespaces: list[str]) -> None:
     """Raise UsageError: the parameter file is for a single robot, without a namespace."""
     from amr_description.parameter_files import (

@@ -42,7 +42,7 @@ def notes_on(files: Sequence[Path]) -> list[Note]:
         notes.append(('INFO', f'using {text}'))
         compared = _family(file) if is_xacro(file) else [file]
         notes += [('WARNING', text) for each in compared for text in _differences(each)]
-    return notes
+    return list(dict.fromkeys(notes))  # files of a folder may be there beside a xacro file of it
 
 
 def _differences(used: Path) -> Iterator[str]:

@@ -24,6 +24,8 @@ read, its actions are visited in order, and each is translated into what a stack
 ``parameters.py``         ParameterValue, ParameterFile; parameters as nodes get them
 ``events.py``             OnProcessExit and the other event handlers; Shutdown
 ``including.py``          IncludeLaunchDescription and its sources
+``opened_files.py``       which files of packages a launch file reads
+``files_in_place.py``     a file of the package in place of a placeholder in its description
 ``translation.py``        actions -> nodes, conditions and handlers of a stack
 ``handling.py``           … and what happens at events
 ``counterparts.py``       packages that are not installed, and what takes their place

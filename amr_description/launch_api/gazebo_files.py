@@ -13,7 +13,7 @@ from pathlib import Path
 import shlex
 from typing import Any
 
-from amr_description.ament_index import own_share
+from amr_description.ament_index import shipped_worlds, world_path
 from amr_description.launch_api.actions import LogInfo, OpaqueFunction, Shutdown
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.descriptions import (
@@ -57,10 +57,9 @@ class World:
     def shipped(self) -> str:
         """The world here: a shipped one of that name, an MJCF file, else the empty one."""
         path = Path(self.name)
-        folder = own_share() / 'config' / 'worlds'
         if path.suffix == '.xml':
-            return self.name
-        return path.stem if path.stem and (folder / f'{path.stem}.xml').is_file() else 'empty'
+            return str(world_path(self.name))
+        return path.stem if path.stem in shipped_worlds() else 'empty'
 
 
 def world_of(words: Sequence[str]) -> World:

@@ -9,6 +9,7 @@ from pathlib import Path
 from amr_description.bringup import user_errors
 from amr_description.bringup.description import Stack
 from amr_description.bringup.handlers import Level
+from amr_description.bringup.input_files import notes_on
 from amr_description.errors import AmrError, BringupError
 from amr_description.launch_api import including, markup
 from amr_description.launch_api.context import LaunchContext
@@ -23,6 +24,7 @@ from amr_description.launch_api.including import (
     read,
 )
 from amr_description.launch_api.modules import understood
+from amr_description.launch_api.opened_files import note, recording
 from amr_description.launch_api.translation import translated
 from amr_description.text import suggestion
 
@@ -44,14 +46,15 @@ class LaunchFile:
     def stack(self, given: Mapping[str, str]) -> Stack:
         """Return what is started with these arguments, by name. Raises BringupError."""
         context = LaunchContext()
-        with understood():
+        with understood(), recording() as files:
+            note(str(self._path))
             try:
                 source = LaunchDescriptionSource(str(self._path))
                 pairs = list(given.items())
                 include = IncludeLaunchDescription(source, launch_arguments=pairs)
                 description = LaunchDescription([include])
                 include.where = source.where = description.where = ''
-                stack = translated(description, context)
+                stack = translated(description, context, self._path)
                 declared = declared_arguments(source.get_launch_description(context))
             except AmrError:
                 raise
@@ -66,4 +69,4 @@ class LaunchFile:
             ('WARNING', f"it declares no argument '{name}'{suggestion(name, sorted(known))}")
             for name in unknown
         ]
-        return replace(stack, notes=[*notes, *stack.notes])
+        return replace(stack, notes=[*notes, *notes_on(files), *stack.notes])

@@ -18,6 +18,7 @@ import uuid
 
 from amr_description.ament_index import executable_of, OWN_PACKAGE
 from amr_description.errors import BringupError, ResourceError
+from amr_description.launch_api import opened_files
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.counterparts import prefix_of, share_of
 from amr_description.launch_api.locations import at, Located, refusal
@@ -265,6 +266,8 @@ class Command(Substitution):
             raise self.failure(f"the command '{text}' cannot be split: {error}") from None
         if words and words[0] == 'xacro' and shutil.which('xacro') is None:
             words[0] = str(executable_of(OWN_PACKAGE, 'xacro'))
+        for word in words[1:]:
+            opened_files.note(word)
         return words
 
 

@@ -39,6 +39,7 @@ from amr_description.bringup.description import Node as StackNode, Respawn, Stac
 from amr_description.bringup.graph_conditions import service
 from amr_description.bringup.handlers import EventHandler, Level
 from amr_description.errors import AmrError, BringupError
+from amr_description.launch_api import opened_files
 from amr_description.launch_api.actions import (
     EmitEvent,
     Log,
@@ -55,6 +56,7 @@ from amr_description.launch_api.counterparts import (
 )
 from amr_description.launch_api.descriptions import Action, LaunchDescription
 from amr_description.launch_api.events import OnProcessExit, Shutdown as ShutdownEvent
+from amr_description.launch_api.files_in_place import use_files_of_package
 from amr_description.launch_api.gazebo_files import (
     classic_world_of,
     Page,
@@ -90,11 +92,13 @@ _LEVELS: Mapping[str, Level] = {
 _PREFIX = 'launch-prefix'
 
 
-def translated(description: LaunchDescription, context: LaunchContext) -> Stack:
-    """Return the stack of a description. Raises BringupError."""
+def translated(description: LaunchDescription, context: LaunchContext, file: Path) -> Stack:
+    """Return the stack of a description, which a file has. Raises BringupError."""
     translation = Translation(context)
     translation.visit([description])
     translation.handle()
+    if text := use_files_of_package(translation.nodes, file):
+        translation.notes.append(('WARNING', text))
     return translation.stack()
 
 
@@ -311,7 +315,7 @@ class Translation:
         parameters = [*given.get(PARAMETERS, ()), *evaluated(context, action.parameters, '')]
         for each in parameters:
             if isinstance(each, Path):
-                path_of(str(each))
+                opened_files.note(str(path_of(str(each))))
         remappings = [(text_of(context, a), text_of(context, b)) for a, b in action.remappings]
         common = self._common(action)
         if package == OWN_PACKAGE and executable == _READS_KEYS and sys.stdin.isatty():

@@ -34,11 +34,10 @@ Euler integrator has to be chosen by ``integrator``.
 from collections.abc import Iterator
 from dataclasses import dataclass
 import math
-from pathlib import Path
 
 import mujoco
 
-from amr_description.ament_index import own_share
+from amr_description.ament_index import world_path
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.parameters import parameter
@@ -153,23 +152,6 @@ def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.M
     apply_default_friction(spec, path)
     prepare_world(spec, settings)
     return spec
-
-
-def shipped_worlds() -> dict[str, Path]:
-    """Return the worlds of this package: name → file."""
-    folder = own_share() / 'config' / 'worlds'
-    return {path.stem: path for path in sorted(folder.glob('*.xml'))}
-
-
-def world_path(world: str) -> Path:
-    """Return the file of a world, given by shipped name or path. Raises SimulationError."""
-    shipped = shipped_worlds()
-    path = shipped.get(world) or Path(world).expanduser()
-    if path.is_file():
-        return path
-    raise SimulationError(
-        f"world '{world}': neither a file nor a shipped world; shipped are: {', '.join(shipped)}"
-    )
 
 
 def prepare_world(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> None:

@@ -78,7 +78,10 @@ def _files_of(robot: Robot, log: Log) -> list[str]:
     found, missing = files_of(robot), missing_files(named_files(robot))
     remedy = 'is given by the parameter controllers of the simulator'
     if missing:
-        why = f'a parameter file that it names is not there: {quote_all(missing)}; another one'
+        used = f'{quote_all([str(path) for path in found])} is used; ' if found else ''
+        why = (
+            f'a parameter file that it names is not there: {quote_all(missing)}; {used}another one'
+        )
         log(Severity.WARN, f'{robot.source}: {why} {remedy}')
     elif not found:
         why = 'it names no parameter file for its controllers; one'

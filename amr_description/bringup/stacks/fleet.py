@@ -14,6 +14,7 @@ import os
 from typing import Annotated, TypeAlias
 from xml.sax.saxutils import quoteattr
 
+from amr_description.ament_index import world_path
 from amr_description.bringup import (
     all_of,
     exited_cleanly,
@@ -111,6 +112,7 @@ def fleet(
 
 
 def _simulator(world: str, rtf: float, controllers: str, record: str) -> Node:
+    world_path(world)  # before anything starts
     parameters: dict[str, ParameterValue] = {'world': world, 'real_time_factor': rtf}
     parameters |= {'controllers': controllers} | ({'record': record} if record else {})
     return Node('mujoco_sim', parameters=[parameters], on_exit='shutdown')

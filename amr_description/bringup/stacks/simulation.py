@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Annotated
 from xml.etree import ElementTree
 
+from amr_description.ament_index import world_path
 from amr_description.argument_types import word_of
 from amr_description.bringup import (
     exited_cleanly,
@@ -162,6 +163,7 @@ def _simulator(
 ) -> Node:
     if not rtf >= 0:
         raise UsageError(f'rtf:={rtf}: a real-time factor is 0 (as fast as possible) or more')
+    world_path(world)  # before anything starts
     parameters: dict[str, ParameterValue] = {
         'world': world,
         'real_time_factor': rtf,

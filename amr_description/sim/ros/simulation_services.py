@@ -40,7 +40,7 @@ from simulation_interfaces.srv import (
     UnloadWorld,
 )
 
-from amr_description.ament_index import resolve_uri
+from amr_description.ament_index import resolve_uri, shipped_worlds, world_path
 from amr_description.control.contracts import Severity
 from amr_description.errors import RequestError, ResourceError, SimulationError
 from amr_description.model.frames import Transform
@@ -49,7 +49,6 @@ from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, SimulationState
-from amr_description.sim.world_file import shipped_worlds, world_path
 
 FEATURES = (
     SimulatorFeatures.NAMED_POSES,

@@ -40,7 +40,9 @@ def test_messages_and_a_module_of_one_name_are_built_together(tmp_path):
     options = {'capture_output': True, 'text': True, 'timeout': 4 * PATIENCE, 'env': variables}
     built = subprocess.run([sys.executable, '-m', 'colcon', 'build'], cwd=tmp_path, **options)
     assert built.returncode == 0, built.stdout + built.stderr
-    program = 'from both_pkg.msg import Wish; from both_pkg.tools import X; print(X, Wish(t=1.0).t)'
+    program = (
+        'from both_pkg.msg import Wish; from both_pkg.tools import X; print(X, Wish(t=1.0).t)'
+    )
     used = subprocess.run(
         ['bash', '-c', f'source {tmp_path}/install/setup.bash && python -c "{program}"'], **options
     )

@@ -10,9 +10,10 @@ from support.paths import ROOT
 
 from amr_description.bringup.arguments import declared, resolve
 from amr_description.bringup.scheduler import Scheduler
+from amr_description.bringup.stack_files import make_stack
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.bringup.stacks.teleop import teleop
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, SimulationError
 from amr_description.model.description_file import located_text
 from amr_description.model.origins import with_file
 from amr_description.model.urdf import parse
@@ -134,6 +135,12 @@ def test_the_pose_is_as_asked(given, words):
 def test_the_simulator_is_told_what_differs_from_its_defaults(given, parameters):
     (told,) = stack(**given).nodes[0].parameters
     assert {key: told[key] for key in told.keys() & OPTIONS} == parameters
+
+
+@pytest.mark.parametrize('name', ['simulation', 'fleet', 'navigation'])
+def test_a_misspelt_world_is_refused_before_anything_starts(name):
+    with pytest.raises(SimulationError, match=r"world 'warehose': neither .*mean warehouse\?; ship"):
+        make_stack(name, {'world': 'warehose'})
 
 
 def test_topics_are_called_as_a_bridge_file_says(tmp_path):

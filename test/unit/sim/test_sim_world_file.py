@@ -5,13 +5,13 @@
 from fixtures.sim.driving import AMR, ROOT
 import pytest
 
-from amr_description.ament_index import package_share, resolve_uri
+from amr_description.ament_index import package_share, resolve_uri, shipped_worlds
 from amr_description.errors import DescriptionError, ResourceError, SimulationError
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.model.origins import with_file
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import load_world, shipped_worlds
+from amr_description.sim.world_file import load_world
 
 WHEELS = [f'joint_wheel_{end}_{side}' for end in ('front', 'back') for side in ('left', 'right')]
 

@@ -7,9 +7,10 @@ import mujoco
 import numpy as np
 import pytest
 
+from amr_description.ament_index import shipped_worlds
 from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
-from amr_description.sim.world_file import shipped_worlds, static_surfaces
+from amr_description.sim.world_file import static_surfaces
 
 WORLDS = ('empty', 'kerbs', 'ramp', 'walls', 'warehouse')
 
