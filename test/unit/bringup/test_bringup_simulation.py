@@ -139,7 +139,7 @@ def test_the_simulator_is_told_what_differs_from_its_defaults(given, parameters)
 
 @pytest.mark.parametrize('name', ['simulation', 'fleet', 'navigation'])
 def test_a_misspelt_world_is_refused_before_anything_starts(name):
-    with pytest.raises(SimulationError, match=r"world 'warehose': neither .*mean warehouse\?; ship"):
+    with pytest.raises(SimulationError, match=r"world 'warehose': neither .*mean warehouse\?;"):
         make_stack(name, {'world': 'warehose'})
 
 
