@@ -67,6 +67,20 @@ def test_a_slower_controller_is_updated_at_every_nth_tick():
     assert controller.updates == [(t * MS, 4 * PERIOD) for t in (70, 110, 150)]
 
 
+@pytest.mark.parametrize('ticks', [1, 2, 3, 4, 5])
+def test_after_a_reset_a_slower_controller_is_updated_as_at_first(ticks):
+    """Else what it publishes would depend on how long the simulation had run before."""
+    manager = make_manager(FakeHardware())
+    controller = start(manager, FakeController(update_rate=25))
+    run(manager, ticks)
+    before = controller.count('update')
+    manager.reset(0)
+    run(manager, 1)
+    assert controller.count('update') == before + 1
+    run(manager, 3, begin=PERIOD)
+    assert controller.count('update') == before + 1
+
+
 @pytest.mark.parametrize(
     ('rate', 'runs_at', 'warning'),
     [
