@@ -105,10 +105,11 @@ class NodeNames:
         for flag, *value in _flags(arguments):
             if flag not in _REMAPS or not value:
                 continue
-            rule = _remapped(value)
-            limit = value[0].removesuffix(rule).removesuffix(':')
-            before, sign, after = rule.removeprefix('rostopic://').partition(':=')
-            if sign and limit in ('', name) and not before.startswith(('__', 'rosservice://')):
+            given = value[0].replace('rostopic://', '')
+            rule = _remapped([given])
+            limit = given.removesuffix(rule).removesuffix(':')
+            before, sign, after = rule.partition(':=')
+            if sign and limit in ('', name) and not before.startswith('__'):
                 self._rules.append((self.expanded(before), after))
 
     def resolve(self, topic: str) -> str:

@@ -71,14 +71,14 @@ def test_only_files_that_speak_of_it_go_on_and_the_first_type_counts(write):
         write('0.yaml', {'leg': ENTRY}),
         write('1.yaml', {'arm': {'ros__parameters': {'gain': 1.0}}}),
         write('2.yaml', {'arm': {'ros__parameters': {'type': 'a/A', 'fallback_controllers': []}}}),
-        write('3.yaml', {'arm': {'ros__parameters': {'fallback_controllers': ['x', 'y']}}}),
+        write('3.yaml', {'arm': {'ros__parameters': {'fallback_controllers': ['x', 'z']}}}),
         write('4.yaml', {'/**': {'ros__parameters': {'type': 'b/B'}}}),
     ]
     entries = controller_entries('arm', [*files, files[1]], '/')
     assert manager_parameters('arm', entries) == {
         'params_file': files[1:],
         'type': 'a/A',
-        'fallback_controllers': ['x', 'y'],
+        'fallback_controllers': ['x', 'z'],
     }
 
 
