@@ -261,7 +261,7 @@ class LoadedController:
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:
-        """The simulation was reset to ``time``, ns: the first tick after it updates, as at first."""
+        """Begin anew at ``time``, ns, after a reset: the first tick updates, as at first."""
         self.last_update = None
         self._ticks = 0
         if self.is_configured:

@@ -6,16 +6,14 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-import yaml
-
 from amr_description.controller_manager.parameter_store import NO_VALUES
 from amr_description.former_parameters import understand
 from amr_description.parameter_files import (
+    content_of,
     dotted,
     EVERY_NODE,
     flatten,
     load_yaml,
-    RclLoader,
     read_parameter_file,
     Section,
     sections,
@@ -43,7 +41,7 @@ def given_parameters(node: str, arguments: Sequence[str]) -> dict[str, Any]:
     collected: dict[str, dict[str, Any]] = {}
     for pattern, name, text in parameter_sources(arguments):
         if name:
-            collected.setdefault(pattern, {})[name] = load_yaml(text, _read)
+            collected.setdefault(pattern, {})[name] = load_yaml(text, content_of)
             continue
         for section in sections(read_parameter_file(Path(text))):
             values = collected.setdefault(section.pattern, {})
@@ -151,7 +149,3 @@ class _Present(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return len({**self._given, **self._declared})
-
-
-def _read(text: str) -> Any:
-    return yaml.load(text, RclLoader)  # noqa: S506 - it is a SafeLoader
