@@ -9,6 +9,7 @@ Every error that this package raises on purpose.
     ├── DescriptionError     a URDF, or one of its <ros2_control> blocks, cannot be used
     │   └── MeshError        a mesh file that it names cannot be used
     ├── ParameterError       a parameter, or a parameter file, cannot be used
+    ├── CallbackError        callbacks of a node raise again and again: it is broken
     ├── ResourceError        a package, its executable, or the file of a URI is not found
     ├── ControlError         ros2_control refuses or fails
     │   ├── InterfaceError   an interface is unknown, unavailable or claimed
@@ -64,6 +65,10 @@ class MeshError(DescriptionError):
 
 class ParameterError(AmrError):
     """A parameter or a parameter file cannot be used."""
+
+
+class CallbackError(AmrError):
+    """Callbacks of a node raise again and again: it is broken."""
 
 
 class ResourceError(AmrError):

@@ -2,23 +2,40 @@
 # SPDX-License-Identifier: Apache-2.0
 """How exceptions of controllers and hardware components, which may be third-party, are logged."""
 
+from pathlib import Path
+import sysconfig
 import traceback
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.errors import AmrError
 from amr_description.text import encodable, unwrap
 
+_TRACEBACK_PERIOD = 10.0
+"""s between two tracebacks of one component that begin alike."""
+_LIBRARIES = (*(sysconfig.get_path(name) for name in ('stdlib', 'purelib')), '<')
+
 
 def describe(error: Exception) -> str:
-    """Return the text of an error, with its type in front unless it is one of ours."""
+    """
+    Return the text of an error; unless it is one of ours, with its type and its place:
+    ``KeyError: 'left' (my_controller.py:6)``.
+    """
     if isinstance(error, AmrError):
         return _text_of(error)
     return f'{type(error).__name__}: {error_line(error)}'
 
 
 def error_line(error: Exception) -> str:
-    """Return the text of an error without line breaks."""
-    return unwrap(_text_of(error))
+    """Return the text of an error without line breaks, with its place unless it is of ours."""
+    text = unwrap(_text_of(error))
+    return text if isinstance(error, AmrError) else f'{text}{place_of(error)}'
+
+
+def place_of(error: BaseException) -> str:
+    """Return `` (my_controller.py:6)``: the innermost line outside of libraries; '' if none is."""
+    frames = traceback.extract_tb(error.__traceback__)
+    outside = [each for each in frames if not each.filename.startswith(_LIBRARIES)]
+    return f' ({Path(outside[-1].filename).name}:{outside[-1].lineno})' if outside else ''
 
 
 def log_error(log: Log, error: Exception) -> str:
@@ -30,8 +47,10 @@ def log_error(log: Log, error: Exception) -> str:
 
 
 def log_traceback(log: Log, error: Exception) -> None:
-    """Log the traceback at DEBUG, for the author of the plugin that raised."""
-    log(Severity.DEBUG, ''.join(traceback.format_exception(error)))
+    """Log the traceback, for the author of the plugin that raised; of our own errors at DEBUG."""
+    severity = Severity.DEBUG if isinstance(error, AmrError) else Severity.ERROR
+    text = ''.join(traceback.format_exception(error))
+    log(severity, text.rstrip(), throttle=_TRACEBACK_PERIOD)
 
 
 def _text_of(error: Exception) -> str:

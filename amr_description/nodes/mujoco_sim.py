@@ -26,6 +26,7 @@ from rclpy.node import Node
 
 from amr_description.control.contracts import Severity
 from amr_description.errors import SimulationError
+from amr_description.ros.firewall import guard
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
@@ -62,6 +63,7 @@ class MujocoSim:
     def __init__(self, executor: SingleThreadedExecutor, args: Sequence[str]) -> None:
         """Make the node and the world. Raises SimulationError, ParameterError."""
         self.node = Node('mujoco_sim')
+        guard(self.node)
         try:
             parameters = declare(self.node, SimulationParameters)
             passed_on = inherited(ros_arguments(args), with_parameters=False)

@@ -57,6 +57,7 @@ from amr_description.errors import ParameterError
 from amr_description.nodes.robot_state_publisher import RobotStatePublisher
 from amr_description.parameter_files import load_yaml
 from amr_description.parameters import build, parameter
+from amr_description.ros.firewall import guard
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
@@ -100,6 +101,7 @@ def view(args: list[str] | None) -> None:
         executor = SingleThreadedExecutor()
         with argument_errors():
             node = Node('viewer')
+        guard(node)
         try:
             with argument_errors():
                 backend = _backend(node, executor)

@@ -16,6 +16,8 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
+from amr_description.errors import CallbackError
+from amr_description.ros.firewall import caught
 from amr_description.ros.polled_topic import NeverCalled
 from amr_description.ros.rclpy_internals import SubscriptionWaiter, take_with_info
 from amr_description.streams import print_traceback
@@ -34,7 +36,7 @@ class CallbackThread:
         Args:
             node: Has them. It may be in an executor, which leaves them alone (but for
                 EventsExecutor, which does not).
-            on_failure: Called in the thread when a callback has raised, which is a bug.
+            on_failure: Called in the thread when callbacks raise again and again.
         """
         self._node = node
         self._on_failure = on_failure
@@ -77,6 +79,9 @@ class CallbackThread:
             while not self._is_ending:
                 if not self._serve_one_each():
                     self._waiter.wait()
+        except CallbackError as error:
+            self._node.get_logger().fatal(str(error))
+            self._on_failure()
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             if self._node.context.ok():  # otherwise: it was shut down in the midst of that
                 print_traceback()
@@ -89,7 +94,13 @@ class CallbackThread:
             taken = take_with_info(subscription)
             if taken is not None:
                 has_come = True
-                callback(*taken)
+                try:
+                    callback(*taken)
+                except Exception as error:
+                    if not self._node.context.ok():
+                        raise
+                    what = f'the callback of {subscription.topic_name}'
+                    caught(error, what, self._node.get_logger())
         return has_come
 
 

@@ -13,14 +13,17 @@ import ctypes
 from functools import cache
 from typing import Any, TYPE_CHECKING
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import ROSClock
 from rclpy.context import Context
+from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.executors import Executor
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
@@ -39,6 +42,7 @@ __all__ = [
     'destroy_type_description_service',
     'end_goal',
     'manual_clock',
+    'mend_parameter_services',
     'NodeNameNonExistentError',
     'parameter_overrides',
     'publisher_without_lock',
@@ -52,6 +56,7 @@ __all__ = [
     'take_message',
     'take_received',
     'take_with_info',
+    'takes_info',
     'UnknownROSArgsError',
 ]
 
@@ -111,6 +116,61 @@ def replace_parameter_event_publisher(node: Node, publisher: Publisher) -> None:
     node._parameter_event_publisher = publisher
 
 
+def mend_parameter_services() -> None:
+    """
+    Have the parameter services of every node of this process answer what they raise on.
+
+    In rclpy 7.1.6 a value of an unknown type, or the question for the type of an undeclared
+    parameter of a node that allows such, raises out of the executor. rclcpp answers.
+    """
+    ParameterService._get_parameter_types_callback = _get_parameter_types
+    ParameterService._set_parameters_callback = _set_parameters
+    ParameterService._set_parameters_atomically_callback = _set_parameters_atomically
+
+
+def _get_parameter_types(service: ParameterService, request: Any, response: Any) -> Any:
+    node = service._get_node()
+    try:
+        response.types = [_number_of(node.get_parameter_type(each)) for each in request.names]
+    except ParameterNotDeclaredException:
+        response.types = []
+    return response
+
+
+def _number_of(kind: Any) -> int:
+    return kind.value if isinstance(kind, Parameter.Type) else kind
+
+
+def _set_parameters(service: ParameterService, request: Any, response: Any) -> Any:
+    node = service._get_node()
+    response.results = [_set_together(node, [each]) for each in request.parameters]
+    return response
+
+
+def _set_parameters_atomically(service: ParameterService, request: Any, response: Any) -> Any:
+    response.result = _set_together(service._get_node(), request.parameters)
+    return response
+
+
+def _set_together(node: Node, messages: Sequence[Any]) -> SetParametersResult:
+    """Set parameters, all or none; whatever is wrong with them is the reason."""
+    try:
+        return node.set_parameters_atomically([_parameter_of(each) for each in messages])
+    except Exception as error:  # rclpy has ten kinds of them, and the callbacks may raise any
+        reason = ' '.join(str(error).split()) or type(error).__name__
+        return SetParametersResult(successful=False, reason=reason)
+
+
+def _parameter_of(message: Any) -> Parameter:
+    known = {each.value for each in Parameter.Type}
+    if message.value.type not in known:
+        raise ValueError(
+            f'{message.name!r}: a value is of type {min(known)} to {max(known)}, '
+            f'not {message.value.type}'
+        )
+    return Parameter.from_parameter_msg(message)
+
+
 def cancel_tasks(executor: Executor) -> None:
     """Cancel the coroutines of callbacks that still await something, for an executor at rest."""
     for task, *_ in executor._tasks:
@@ -150,6 +210,11 @@ def take_with_info(subscription: Subscription) -> tuple[Any, Mapping[str, int]] 
     handle = subscription.handle
     with handle:
         return handle.take_message(subscription.msg_type, subscription.raw)
+
+
+def takes_info(subscription: Subscription) -> bool:
+    """Return whether its callback has a second parameter, for what rclpy tells of a message."""
+    return subscription._callback_type is Subscription.CallbackType.WithMessageInfo
 
 
 def bytes_publisher(publisher: Publisher) -> Callable[[bytes], None]:

@@ -38,6 +38,9 @@ an :class:`~amr_description.errors.AmrError`      one FATAL line    its ``exit_c
 wrong ROS arguments: ``-p``, ``-r``, names, ...   one FATAL line    1
 any other exception: a bug                        its traceback     1
 ================================================  ================  ===========================
+
+What a callback raises does not get that far: it is logged, and the node serves on, see
+``firewall.py``.
 """
 
 from collections.abc import Callable, Iterator
@@ -56,13 +59,15 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
-from amr_description.errors import AmrError, ParameterError
+from amr_description.errors import AmrError, CallbackError, ParameterError
 from amr_description.ros.discovery import use_whole_graph
+from amr_description.ros.firewall import caught, guard
 from amr_description.ros.participant_end import bound_listener_wait
 from amr_description.ros.process_end import skip_destructors
 from amr_description.ros.rclpy_internals import (
     cancel_tasks,
     destroy_type_description_service,
+    mend_parameter_services,
     RCLError,
     RCLInvalidROSArgsError,
     UnknownROSArgsError,
@@ -102,6 +107,7 @@ def run(
         with ros(args) as stop:
             with argument_errors():
                 node = make_node()
+            guard(node)
             try:
                 _spin_until_stopped(node, executor, stop)
             finally:
@@ -140,6 +146,7 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
     with StopRequests(wake=rclpy.try_shutdown) as stop:
         try:
             use_whole_graph()
+            mend_parameter_services()
             with argument_errors(), udp_only():
                 rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
             bound_listener_wait()
@@ -155,7 +162,7 @@ def spin(executor: Executor, until: Callable[[], bool], *, timeout: float = _SPI
     Serve the executor's callbacks in this thread until ``until()``, or a shutdown of the context.
 
     ``until`` is asked after every callback and each ``timeout`` s; :func:`end_wait` has it asked
-    at once. (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
+    at once. What a callback raises is logged (CallbackError: too much is raised). (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
     never run a callback. This loop is right for every executor.)
     """
     while executor.context.ok() and not until():
@@ -163,9 +170,11 @@ def spin(executor: Executor, until: Callable[[], bool], *, timeout: float = _SPI
             executor.spin_once(timeout_sec=timeout)
         except ExternalShutdownException:
             return
-        except RCLError:
+        except CallbackError:
+            raise
+        except Exception as error:
             if executor.context.ok():  # otherwise: it was shut down while the wait was set up
-                raise
+                caught(error, 'a callback')
 
 
 def end_wait(executor: Executor) -> None:
@@ -255,7 +264,7 @@ class ExecutorThread:
     """
 
     def __init__(self, name: str, on_failure: Callable[[], object]) -> None:
-        """``on_failure``: called in the thread when a callback has raised, which is a bug."""
+        """``on_failure``: called in the thread when callbacks raise again and again."""
         self.executor = SingleThreadedExecutor()
         self._on_failure = on_failure
         self._ending = threading.Event()
@@ -283,6 +292,9 @@ class ExecutorThread:
     def _run(self) -> None:
         try:
             spin(self.executor, self._ending.is_set, timeout=_LONG_TIMEOUT)
+        except CallbackError as error:
+            get_logger(self._thread.name).fatal(str(error))
+            self._on_failure()
         except BaseException:  # sys.exit() in a plugin, too: nobody else would see it
             print_traceback()
             self._on_failure()

@@ -16,6 +16,7 @@ from rclpy.clock_type import ClockType
 from rclpy.qos import QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
+from amr_description.ros.firewall import caught
 from amr_description.ros.polled_topic import NeverCalled, PollingNode
 from amr_description.ros.rclpy_internals import SubscriptionWaiter, take_received
 
@@ -27,8 +28,8 @@ class TopicThread:
     A shutdown of the context ends the thread, too: who is asked to stop while making the node has
     none that could be destroyed, and the process waits for its threads.
 
-    What ``handle`` raises, which is a bug, ends the thread, and is raised in that of the node's
-    executor.
+    What ``handle`` raises is logged; too much of it, a CallbackError, ends the thread, and is raised
+    in that of the node's executor.
     """
 
     def __init__(
@@ -53,7 +54,7 @@ class TopicThread:
             qos: Deep enough for what comes while none is wanted.
             qos_overriding_options: As of ``Node.create_subscription()``.
         """
-        self._context = node.context
+        self._context, self._logger = node.context, node.get_logger()
         self._handle = handle
         self._subscription = node.create_subscription(
             message_type,
@@ -107,13 +108,23 @@ class TopicThread:
                     self._waiter.wait()
                     continue
                 self._awake.clear()
-                rest = self._handle(*received)
+                rest = self._handled(*received)
                 if rest > 0.0 and not self._is_ending:
                     self._awake.wait(rest)
         except BaseException as error:
             if self._context.ok():  # otherwise: it was shut down in the midst of that
                 self._error = error
                 self._failure.reset()
+
+    def _handled(self, data: bytes, arrival: int) -> float:
+        try:
+            return self._handle(data, arrival)
+        except Exception as error:
+            if not self._context.ok():
+                raise
+            what = f'the callback of {self._subscription.topic_name}'
+            caught(error, what, self._logger)
+            return 0.0
 
     def _raise(self) -> None:
         self._failure.cancel()

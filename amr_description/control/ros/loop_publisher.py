@@ -54,6 +54,7 @@ from amr_description.control.ros.message_recorder import (
     Sink,
 )
 from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.firewall import guard
 from amr_description.ros.message_types import type_name
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import (
@@ -229,6 +230,7 @@ class LoopPublisher:
             enable_logger_service=True,
             **options,
         )
+        guard(node)
         self.adopt(node)
         return node
 

@@ -12,7 +12,9 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
 
+from amr_description.ros import firewall
 from amr_description.ros.callback_thread import CallbackThread
+from amr_description.ros.firewall import Firewall
 from amr_description.ros.service_calls import wait_until
 
 QOS = QoSProfile(depth=10)
@@ -101,10 +103,14 @@ def test_one_that_was_never_started_ends_too(talker):
     node.destroy_node()
 
 
-def test_a_bug_is_printed_and_reported(talker, capfd):
+def test_bugs_are_printed_and_again_and_again_reported(talker, capfd, monkeypatch):
+    monkeypatch.setattr(firewall, 'FIREWALL', Firewall())
+    monkeypatch.setattr(firewall, 'MOST_A_SECOND', 0)
     listener = Listener()
     say(talker, 'left', 'bug')
     until(talker, lambda: listener.failures)
     listener.destroy_node()
     assert listener.failures == ['bug']
-    assert 'ValueError: bug' in capfd.readouterr().err
+    said = capfd.readouterr().err
+    assert 'ValueError: bug' in said
+    assert 'callbacks have raised more than 0 times within a second' in said

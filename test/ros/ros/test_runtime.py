@@ -191,13 +191,13 @@ def test_a_program_exits_with_what_its_body_returns(returned, code):
     assert program(lambda: returned) == code
 
 
-def test_an_unexpected_exception_in_a_callback_keeps_its_traceback(capfd):
+def test_a_callback_that_raises_again_and_again_ends_the_node_in_order(capfd):
     destroyed = []
 
     class Faulty(Node):
         def __init__(self):
             super().__init__('faulty')
-            self.create_timer(0.01, self.fail)
+            self.create_timer(0.001, self.fail)
 
         def fail(self):
             raise ZeroDivisionError('a bug')
@@ -206,9 +206,11 @@ def test_an_unexpected_exception_in_a_callback_keeps_its_traceback(capfd):
             destroyed.append(self)
             super().destroy_node()
 
-    with pytest.raises(ZeroDivisionError, match='a bug'):
-        run(Faulty, [])
+    assert run(Faulty, []) == 1
     assert destroyed
+    said = capfd.readouterr().err
+    assert 'callbacks have raised more than 100 times within a second, the last: ' in said
+    assert said.count('Traceback') == 1
     assert not rclpy.ok()
 
 
@@ -312,12 +314,11 @@ def test_a_busy_executor_has_let_go_of_a_publisher_when_it_was_awaited(context, 
         node.create_publisher(Empty, 'topic', 10)
 
 
-@pytest.mark.parametrize('error', [LookupError('mine'), SystemExit(4)])
-def test_a_thread_whose_callback_raises_says_so(listener, error, capfd):
+def test_a_thread_whose_callback_leaves_says_so(listener, capfd):
     failed = threading.Event()
 
     def fail():
-        raise error
+        raise SystemExit(4)
 
     listener.create_timer(0.01, fail)
     thread = ExecutorThread('served', failed.set)
@@ -326,7 +327,7 @@ def test_a_thread_whose_callback_raises_says_so(listener, error, capfd):
     assert failed.wait(20.0)
     thread.end()
     thread.executor.shutdown()
-    assert type(error).__name__ in capfd.readouterr().err
+    assert 'SystemExit' in capfd.readouterr().err
 
 
 def phases(body, **options):

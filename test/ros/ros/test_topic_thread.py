@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Topics that no executor serves: polled, and taken in a thread of their own."""
 
+from collections import deque
 import threading
 
 import pytest
@@ -16,6 +17,9 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
 
+from amr_description.errors import CallbackError
+from amr_description.ros import firewall
+from amr_description.ros.firewall import Firewall
 from amr_description.ros.polled_topic import PolledTopic, PollingNode
 from amr_description.ros.runtime import spin, spinning
 from amr_description.ros.service_calls import wait_until
@@ -119,12 +123,17 @@ def test_the_end_of_the_node_ends_a_rest_and_a_wait(talker):
 
 
 @pytest.mark.parametrize('executor', [EventsExecutor, SingleThreadedExecutor])
-def test_a_bug_is_raised_where_the_node_is_served(talker, executor):
+def test_bugs_again_and_again_are_raised_where_the_node_is_served(talker, executor, monkeypatch):
+    monkeypatch.setattr(firewall, 'FIREWALL', Firewall(lambda: 0.0))
+    monkeypatch.setattr(firewall, 'MOST_A_SECOND', 3)
+    monkeypatch.setattr(firewall.FIREWALL, '_latest', deque(maxlen=4))
     listener = Listener()
+    talker.say('bug', 'bug', 'one')
+    talker.until(lambda: listener.words)
     server = executor()
     server.add_node(listener)
-    talker.say('bug')
-    with pytest.raises(ValueError, match='bug'):
+    talker.say('bug', 'bug')
+    with pytest.raises(CallbackError, match='ValueError: bug'):
         spin(server, lambda: False)
     server.shutdown()
     listener.destroy_node()
