@@ -199,8 +199,11 @@ class TimeSynchronizer(SimpleFilter):
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """Take a message into its queue, and hand on the sets that are complete."""
+        time = _time_of(msg, msg.header.stamp, 'message_filters')
+        if time is None:
+            return
         with self.lock:
-            self._insert(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
+            self._insert(time.nanoseconds, msg, my_queue)
             common: set[int] = reduce(set.intersection, [set(queue) for queue in self.queues])
             for stamp in sorted(common):
                 self._signal([stamp] * len(self.queues))
@@ -266,11 +269,21 @@ def _closest_first(stamps: Mapping[int, object], stamp: int, slop: int) -> list[
     return sorted(near, key=lambda each: abs(each - stamp))
 
 
+def _time_of(msg: Any, stamp: Any, logger: str) -> Time | None:
+    """Return a stamp as a time; None, and a warning: it is negative, which rclpy raises at."""
+    if stamp.sec >= 0:
+        return Time.from_msg(stamp)
+    get_logger(logger).warning(
+        f'{type(msg).__name__} has the stamp {stamp.sec} s: the message is dropped'
+    )
+    return None
+
+
 def _stamp_of(msg: Any, allow_headerless: bool, logger: str) -> Time | None:
     """Return the stamp of a message, or the time now; None, and a warning: it may have none."""
     stamp = getattr(getattr(msg, 'header', None), 'stamp', None)
     if stamp is not None:
-        return stamp if hasattr(stamp, 'nanoseconds') else Time.from_msg(stamp)
+        return stamp if hasattr(stamp, 'nanoseconds') else _time_of(msg, stamp, logger)
     if allow_headerless:
         return ROSClock().now()
     get_logger(logger).warning(

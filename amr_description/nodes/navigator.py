@@ -81,7 +81,7 @@ from amr_description.navigation.footprint import (
 )
 from amr_description.navigation.grid import OccupancyGrid, UNKNOWN
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.goals import Goal, GoalServer
+from amr_description.navigation.ros.goals import Goal, GoalServer, UNKNOWN_ERROR
 from amr_description.navigation.ros.messages import grid_message, pose_message
 from amr_description.navigation.ros.surroundings import (
     Surroundings,
@@ -89,6 +89,7 @@ from amr_description.navigation.ros.surroundings import (
     TF_ERROR,
 )
 from amr_description.parameters import parameter
+from amr_description.ros.firewall import reason_of
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import add_validation_callback, declare, values
 from amr_description.ros.qos import LATCHED
@@ -266,6 +267,13 @@ class Navigator(Node):
     # --- driving ------------------------------------------------------------------------------
 
     def _step(self) -> None:
+        try:
+            self._drive_on()
+        except Exception as error:  # whatever was heard: the robot stops, the client hears of it
+            self._end_drive(NavigationError(UNKNOWN_ERROR, reason_of(error)))
+            raise
+
+    def _drive_on(self) -> None:
         self._surroundings.take_scan()
         self._publish_footprint()
         drive, goal = self._drive, self._goal

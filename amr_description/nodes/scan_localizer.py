@@ -50,7 +50,7 @@ from amr_description.navigation.ros.messages import grid_of, plane_pose, pose_of
 from amr_description.navigation.ros.transform_queue import TransformQueue
 from amr_description.navigation.scan_matching import Match, ScanMatcher
 from amr_description.parameters import group, parameter
-from amr_description.ros.messages import nanoseconds
+from amr_description.ros.messages import nanoseconds, stamp_fault
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.qos import LATCHED
@@ -208,6 +208,9 @@ class ScanLocalizer(Node):
 
     def _on_initial_pose(self, message: PoseWithCovarianceStamped) -> None:
         """Take it as the pose at its stamp, from which odometry goes on (0: the latest one)."""
+        if fault := stamp_fault(message.header.stamp):
+            self.get_logger().warning(f'an initial pose is left out: {fault}')
+            return
         pose = pose_of(message.pose.pose)
         frames = (self._settings.odom_frame_id, self._settings.base_frame_id)
         odometry: Pose | None = None
@@ -226,6 +229,11 @@ class ScanLocalizer(Node):
         return response
 
     def _on_scan(self, message: LaserScan) -> None:
+        if fault := stamp_fault(message.header.stamp):
+            self.get_logger().warning(
+                f'a scan is left out: {fault}', throttle_duration_sec=_PATIENCE
+            )
+            return
         stamp = nanoseconds(message.header.stamp)
         if stamp < self._latest:  # the simulation was reset
             self._buffer.clear()

@@ -47,7 +47,7 @@ from amr_description.navigation.ros.localizer import after, listed, LocalizerTop
 from amr_description.navigation.ros.messages import plane_pose, pose_of
 from amr_description.navigation.ros.transform_queue import TransformQueue
 from amr_description.parameters import parameter
-from amr_description.ros.messages import nanoseconds, transform_of
+from amr_description.ros.messages import nanoseconds, stamp_fault, transform_of
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import run
@@ -153,6 +153,11 @@ class TruthLocalizer(Node):
         )
 
     def _on_truth(self, message: Odometry) -> None:
+        if fault := stamp_fault(message.header.stamp):
+            self.get_logger().warning(
+                f'a pose of the robot is left out: {fault}', throttle_duration_sec=_PATIENCE
+            )
+            return
         stamp = nanoseconds(message.header.stamp)
         if stamp < self._latest:  # the simulation was reset
             self._buffer.clear()

@@ -92,8 +92,8 @@ class Firewall:
             log(encodable(text))
         if is_storm:
             raise CallbackError(
-                f'callbacks have raised more than {MOST_A_SECOND} times within a second, the last: '
-                f'{what}: {describe(error)}'
+                f'callbacks have raised more than {MOST_A_SECOND} times within a second, '
+                f'the last: {what}: {describe(error)}'
             ) from error
 
     def _text(self, error: Exception, what: str, now: float) -> str:
@@ -124,6 +124,11 @@ def caught(error: Exception, what: str, logger: RcutilsLogger | None = None) -> 
     Raises CallbackError: too much is raised.
     """
     FIREWALL.caught(error, what, (logger or get_logger('callbacks')).error)
+
+
+def reason_of(error: Exception) -> str:
+    """Return what a client is told of an exception: ``ValueError: text (file.py:6)``."""
+    return describe(error)
 
 
 def guard(node: Node) -> None:
@@ -211,7 +216,7 @@ def _guard_service(service: Any, logger: RcutilsLogger) -> None:
 
     def answer(error: Exception) -> Any:
         caught(error, what, logger)
-        return refuse(response_type(), describe(error))
+        return refuse(response_type(), reason_of(error))
 
     async def awaited(request: Any, response: Any) -> Any:
         try:

@@ -21,6 +21,17 @@ def nanoseconds(stamp: 'Time') -> int:
     return stamp.sec * NANOSECONDS + stamp.nanosec
 
 
+def stamp_fault(stamp: 'Time') -> str:
+    """
+    Return why the stamp of a message of others is no time; empty: it is one.
+
+    rclpy's ``Time.from_msg()`` raises at a negative one. Look before it is called.
+    """
+    if stamp.sec >= 0 and stamp.nanosec < NANOSECONDS:
+        return ''
+    return f'its stamp, {stamp.sec} s and {stamp.nanosec} ns, is no time'
+
+
 def fill_stamp(time: int, stamp: 'Time') -> None:
     """Write integer nanoseconds into a stamp."""
     stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)

@@ -162,8 +162,9 @@ def spin(executor: Executor, until: Callable[[], bool], *, timeout: float = _SPI
     Serve the executor's callbacks in this thread until ``until()``, or a shutdown of the context.
 
     ``until`` is asked after every callback and each ``timeout`` s; :func:`end_wait` has it asked
-    at once. What a callback raises is logged (CallbackError: too much is raised). (In rclpy 7.1.6 ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out,
-    never run a callback. This loop is right for every executor.)
+    at once. What a callback raises is logged; CallbackError: too much is. (In rclpy 7.1.6
+    ``EventsExecutor.spin()``, and ``spin_once()`` without a time-out, never run a callback. This
+    loop is right for every executor.)
     """
     while executor.context.ok() and not until():
         try:

@@ -28,8 +28,8 @@ class TopicThread:
     A shutdown of the context ends the thread, too: who is asked to stop while making the node has
     none that could be destroyed, and the process waits for its threads.
 
-    What ``handle`` raises is logged; too much of it, a CallbackError, ends the thread, and is raised
-    in that of the node's executor.
+    What ``handle`` raises is logged; too much of it, a CallbackError, ends the thread, and is
+    raised in that of the node's executor.
     """
 
     def __init__(

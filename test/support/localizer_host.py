@@ -81,9 +81,14 @@ class Host:
         self.truth.publish(message)
 
     def send_initial_pose(
-        self, pose: Pose, frame: str = 'map', variances: tuple[float, float, float] = (0, 0, 0)
+        self,
+        pose: Pose,
+        frame: str = 'map',
+        variances: tuple[float, float, float] = (0, 0, 0),
+        stamp: int = 0,
     ) -> None:
         message = PoseWithCovarianceStamped()
+        fill_stamp(stamp, message.header.stamp)
         message.header.frame_id = frame
         message.pose.pose = pose_message(pose)
         for axis, variance in zip((0, 7, 35), variances, strict=True):

@@ -10,8 +10,11 @@ from rclpy.action.server import GoalEvent, ServerGoalHandle
 from rclpy.node import Node
 
 from amr_description.errors import NavigationError
+from amr_description.ros.firewall import reason_of
 from amr_description.ros.rclpy_internals import begin_goal, end_goal
 from amr_description.ros.standing_clock import StandingClockNode
+
+UNKNOWN_ERROR = 200
 
 
 class Goal:
@@ -99,7 +102,13 @@ class GoalServer:
 
     def _accepted(self, handle: ServerGoalHandle) -> None:
         begin_goal(handle)
-        self._begin(Goal(self, handle, handle.request))
+        goal = Goal(self, handle, handle.request)
+        try:
+            self._begin(goal)
+        except Exception as error:  # whatever is in the goal: its client hears of it
+            if handle.is_active:
+                goal.abort(NavigationError(UNKNOWN_ERROR, reason_of(error)))
+            raise
 
 
 def _never(handle: ServerGoalHandle) -> None:

@@ -34,6 +34,11 @@ def is_place(message: PoseMessage) -> bool:
     return all(abs(each) < _FARTHEST for each in (place.x, place.y, place.z))
 
 
+def is_on_map(pose: Pose) -> bool:
+    """Return whether a pose in the frame of a map is so; those of TF may be anywhere."""
+    return abs(pose.x) < _FARTHEST and abs(pose.y) < _FARTHEST and math.isfinite(pose.yaw)
+
+
 def pose_of(message: PoseMessage) -> Pose:
     """Return a message's pose seen from above: what lies out of the plane is dropped."""
     turn = message.orientation

@@ -16,15 +16,25 @@ from sensor_msgs.msg import LaserScan
 from amr_description.errors import NavigationError, TransformException
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.messages import grid_of, is_place, plane_pose, pose_of
+from amr_description.navigation.ros.goals import UNKNOWN_ERROR
+from amr_description.navigation.ros.messages import (
+    grid_of,
+    is_on_map,
+    is_place,
+    plane_pose,
+    pose_of,
+)
 from amr_description.parameters import group, parameter
+from amr_description.ros.messages import nanoseconds, stamp_fault
 from amr_description.ros.qos import LATCHED
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.buffer_core import is_unit
 from amr_description.tf2_ros.listener import TransformListener
 
-UNKNOWN_ERROR = 200
 TF_ERROR = 202
+
+_LOG_PERIOD = 5.0
+"""s between two warnings of one kind."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +107,9 @@ class Surroundings:
             )
         except TransformException as error:
             return f'the pose of the robot is unknown: {error}'
-        age = self.now - Time.from_msg(found.header.stamp).nanoseconds * 1e-9
+        if not is_on_map(pose := plane_pose(found)):
+            return f'the pose of the robot is ({pose.x}, {pose.y}): no place'
+        age = self.now - nanoseconds(found.header.stamp) * 1e-9
         if age > settings.transform_tolerance:
             return (
                 f'{settings.global_frame} -> {settings.robot_base_frame} is {age:.1f} s old: '
@@ -134,7 +146,14 @@ class Surroundings:
                 TF_ERROR,
                 f'the goal has no frame_id: write header.frame_id {self._settings.global_frame}',
             )
-        return self._look_up(frame, 'the goal').compose(pose_of(message.pose))
+        goal = self._look_up(frame, 'the goal').compose(pose_of(message.pose))
+        if not is_on_map(goal):
+            raise NavigationError(
+                TF_ERROR,
+                f'the goal, which is in {frame}, is at ({goal.x}, {goal.y}) in '
+                f'{self._settings.global_frame}: no place',
+            )
+        return goal
 
     def _look_up(self, frame: str, what: str) -> Pose:
         try:
@@ -143,7 +162,13 @@ class Surroundings:
             raise NavigationError(
                 TF_ERROR, f'{what} is not known in {self._settings.global_frame}: {error}'
             ) from None
-        return plane_pose(found)
+        pose = plane_pose(found)
+        if not is_on_map(pose):
+            raise NavigationError(
+                TF_ERROR,
+                f'{what} is ({pose.x}, {pose.y}) in {self._settings.global_frame}: no place',
+            )
+        return pose
 
     def _hear_map(self, message: OccupancyGrid) -> None:
         try:
@@ -161,7 +186,12 @@ class Surroundings:
         self.speed = (twist.linear.x, twist.angular.z)
 
     def _hear_scan(self, message: LaserScan) -> None:
-        self._scan_at = Time.from_msg(message.header.stamp).nanoseconds * 1e-9
+        if fault := stamp_fault(message.header.stamp):
+            self._node.get_logger().warning(
+                f'a scan is left out: {fault}', throttle_duration_sec=_LOG_PERIOD
+            )
+            return
+        self._scan_at = nanoseconds(message.header.stamp) * 1e-9
         self._scan = message
 
     def take_scan(self) -> None:

@@ -139,6 +139,20 @@ def test_a_message_without_stamp_is_dropped_unless_it_may_come(make, capfd):
     assert heard == [String(data='no header')]
 
 
+@pytest.mark.parametrize('kind', [TimeSynchronizer, ApproximateTimeSynchronizer])
+def test_a_message_with_a_negative_stamp_is_dropped_with_a_warning(kind, capfd):
+    (source,) = inputs(1)
+    got = []
+    more = {'slop': 0.1} if kind is ApproximateTimeSynchronizer else {}
+    kind([source], 5, **more).registerCallback(got.append)
+    bad = message(0)
+    bad.header.stamp.sec = -1
+    source.signalMessage(bad)
+    source.signalMessage(message(1))
+    assert got == [message(1)]
+    assert 'PointStamped has the stamp -1 s: the message is dropped' in capfd.readouterr().err
+
+
 def test_exact_sets_come_in_the_order_of_the_filters_and_each_once():
     left, right = inputs(2)
     heard = []

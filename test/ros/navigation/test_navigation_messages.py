@@ -9,7 +9,13 @@ import pytest
 
 from amr_description.navigation.grid import OccupancyGrid
 from amr_description.navigation.pose import Pose
-from amr_description.navigation.ros.messages import grid_message, grid_of, pose_message, pose_of
+from amr_description.navigation.ros.messages import (
+    grid_message,
+    grid_of,
+    is_on_map,
+    pose_message,
+    pose_of,
+)
 
 
 def test_a_pose_comes_back():
@@ -51,3 +57,17 @@ def test_what_is_no_map_is_an_error(changes, text):
     with pytest.raises(ValueError) as found:
         grid_of(message)
     assert str(found.value) == text
+
+
+@pytest.mark.parametrize(
+    ('pose', 'is_there'),
+    [
+        (Pose(1.0, -9e8, 3.0), True),
+        (Pose(1e308, 0.0, 0.0), False),
+        (Pose(0.0, -math.inf, 0.0), False),
+        (Pose(math.nan, 0.0, 0.0), False),
+        (Pose(0.0, 0.0, math.nan), False),
+    ],
+)
+def test_what_tf_makes_of_a_pose_may_be_no_place(pose, is_there):
+    assert is_on_map(pose) is is_there

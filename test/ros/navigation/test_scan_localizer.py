@@ -191,6 +191,29 @@ def test_what_is_missing_is_said(monkeypatch, sends, said):
         host.wait(is_said)
 
 
+@pytest.mark.parametrize('stamp', [(-1, 0), (-(2**31), 7), (5, 10**9), (5, 2**32 - 1)])
+def test_a_scan_whose_stamp_is_no_time_is_left_out_with_a_warning(stamp):
+    with hosted(ScanLocalizer, hears_truth=False) as host:
+        robot = Room(host)
+        message = LaserScan()
+        message.header.stamp.sec, message.header.stamp.nanosec = stamp
+        robot.scans.publish(message)
+        line = f'a scan is left out: its stamp, {stamp[0]} s and {stamp[1]} ns, is no time'
+        host.wait(lambda: line in host.log)
+        host.send_initial_pose(BEGIN)
+        assert host.pose(robot.localized(1000 * MS, BEGIN)) == near(BEGIN)
+
+
+def test_an_initial_pose_whose_stamp_is_no_time_is_left_out():
+    with hosted(ScanLocalizer, hears_truth=False) as host:
+        robot = Room(host)
+        host.send_initial_pose(Pose(5.0, 5.0, 0.0), stamp=-1000 * MS)
+        line = 'an initial pose is left out: its stamp, -1 s and 0 ns, is no time'
+        host.wait(lambda: line in host.log)
+        host.send_initial_pose(BEGIN)
+        assert host.pose(robot.localized(1000 * MS, BEGIN)) == near(BEGIN)
+
+
 def test_what_is_no_map_is_ignored():
     with hosted(ScanLocalizer, hears_truth=False) as host:
         robot = Room(host, has_map=False)

@@ -4,8 +4,7 @@
 
 from nav2_msgs.srv import LoadMap
 import pytest
-from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.msg import ParameterValue, SetParametersResult
+from rcl_interfaces.msg import Parameter as ParameterMessage, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import GetParameterTypes, SetParameters, SetParametersAtomically
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
