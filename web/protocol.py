@@ -100,7 +100,7 @@ class _Module:
         self._tree = ast.parse(text)
         self._remarks = dict(_remarks(text))
         self._aliases = {
-            node.target.id: node.value
+            node.target.id: _unannotated(node.value)
             for node in self._tree.body
             if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name)
             if node.value and ast.unparse(node.annotation) == 'TypeAlias'
@@ -225,6 +225,14 @@ def _name_of(node: ast.stmt) -> str:
         case ast.Assign(targets=[ast.Name(id=name)]) | ast.AnnAssign(target=ast.Name(id=name)):
             return name
     return '_'
+
+
+def _unannotated(kind: ast.expr) -> ast.expr:
+    """Return what ``Annotated`` tells two types of one kind apart by: the kind itself."""
+    match kind:
+        case ast.Subscript(value=ast.Name(id='Annotated'), slice=ast.Tuple(elts=[inner, *_])):
+            return inner
+    return kind
 
 
 def _is_plain(kind: ast.expr) -> bool:

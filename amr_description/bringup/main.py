@@ -17,7 +17,7 @@ from pathlib import Path
 import signal
 import sys
 import threading
-from typing import Protocol
+from typing import Any, Protocol
 
 from amr_description import streams
 from amr_description.ament_index import overlay, OWN_PACKAGE
@@ -47,6 +47,8 @@ from amr_description.errors import AmrError
 from amr_description.launch_log import LAUNCH_LOG
 
 _INDENT = '    '
+_LONG, _BEGIN = 300, 60
+"""Characters: a text that ``--print`` shortens, and what is left of it."""
 
 
 class StackSource(Protocol):
@@ -272,7 +274,27 @@ def _node_lines(spec: ProcessSpec, name_of: NameOf) -> Iterator[str]:
     for path, text in spec.parameter_files:
         if text is not None:
             yield f'{_INDENT}{path}:'
-            yield from (f'{2 * _INDENT}{line}' for line in text.splitlines())
+            yield from (f'{2 * _INDENT}{line}' for line in _shortened(text).splitlines())
+
+
+def _shortened(text: str) -> str:
+    """Return a parameter file with the begin of each long text, such as a robot description."""
+    from amr_description.parameter_files import content_of, text_of
+
+    content = content_of(text) if len(text) > _LONG else None
+    shorter = _with_short_texts(content)
+    return text if shorter == content else text_of(shorter)
+
+
+def _with_short_texts(value: Any) -> Any:
+    match value:
+        case dict():
+            return {key: _with_short_texts(each) for key, each in value.items()}
+        case list():
+            return [_with_short_texts(each) for each in value]
+        case str() if len(value) > _LONG:
+            return f'{" ".join(value[:_BEGIN].split())} … {len(value):,} characters'
+    return value
 
 
 def _options(node: Node) -> Iterator[str]:

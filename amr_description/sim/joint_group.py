@@ -27,6 +27,8 @@ Reader: TypeAlias = Callable[[], list[float]]
 Writer: TypeAlias = Callable[[Sequence[float]], None]
 
 _JOINT = mujoco.mjtObj.mjOBJ_JOINT
+_ROUNDING = 1e-9
+"""In any unit: how far beyond a limit a command may be by the rounding of who has computed it."""
 _ACTUATOR = mujoco.mjtObj.mjOBJ_ACTUATOR
 _LIMITS = {
     POSITION: 'lower="…" upper="…"',
@@ -164,7 +166,7 @@ class MujocoJointGroup:
                 raise SimulationError(f'{where} is {value}; a finite number is needed')
             bounds = command_bounds(joint, self._interface)
             clamped.append(min(max(value, bounds.lower), bounds.upper))
-            if clamped[-1] != value:
+            if abs(clamped[-1] - value) > _ROUNDING:
                 self._log(
                     Severity.WARN,
                     f'{where} {value:.6g} is beyond {bounds} and is clamped; '

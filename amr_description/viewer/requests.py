@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, MISSING
 import json
 import math
-from typing import Any, ClassVar, get_args, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, get_args, Literal, TypeAlias
 
 from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
@@ -34,11 +34,11 @@ MOST_FIELDS = 256
 _HIGHEST_RATE = 100.0  # Hz
 _FASTEST = 100.0  # m/s or rad/s; no wheeled robot is faster
 
-Speed: TypeAlias = float
+Speed: TypeAlias = Annotated[float, 'speed']
 """m/s or rad/s; its own type, because it has a limit: more than 100 either way is refused."""
-Rate: TypeAlias = float
+Rate: TypeAlias = Annotated[float, 'rate']
 """Hz; its own type, because more than 100, or less than 0, is refused."""
-Document: TypeAlias = str
+Document: TypeAlias = Annotated[str, 'document']
 """A text of any lines."""
 Part: TypeAlias = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings']
 """

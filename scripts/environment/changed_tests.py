@@ -67,7 +67,7 @@ def changed_paths(root: Path) -> list[str]:
 
     def git(*words: str) -> list[str]:
         done = subprocess.run(
-            ['git', '-C', root, *words], check=True, stdout=subprocess.PIPE, text=True
+            ['git', '-C', root, *words], check=True, capture_output=True, text=True
         )
         return done.stdout.splitlines()
 
@@ -78,5 +78,12 @@ def changed_paths(root: Path) -> list[str]:
 
 if __name__ == '__main__':
     root = Path(__file__).resolve().parents[2]
-    print(*affected_tests(changed_paths(root), root), sep='\n')
+    try:
+        changed = changed_paths(root)
+    except (OSError, subprocess.CalledProcessError) as error:
+        sys.exit(
+            f'scripts/test --changed: git has to know what has changed here, and does not: {error}; '
+            'name the tests in its place, as: scripts/test unit'
+        )
+    print(*affected_tests(changed, root), sep='\n')
     sys.exit(0)

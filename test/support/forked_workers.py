@@ -141,7 +141,11 @@ class ForkedWorkers:
         self._groups.extend(together(self._groups_of(session.items)))
         try:
             self._run_groups(session, tell)
-            for index in second_look.to_look_at() if second_look is not None else ():
+            again = second_look.to_look_at() if second_look is not None else []
+            if again and reporter is not None:
+                reporter.ensure_newline()
+                reporter.write_line(f'{len(again)} failed; each runs once more, alone')
+            for index in again:
                 if session.shouldfail or session.shouldstop:
                     break
                 second_look.note(index, self.run_alone(session, index))

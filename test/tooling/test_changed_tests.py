@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which tests ``scripts/test --changed`` runs."""
 
+import os
 import subprocess
+import sys
 
 from environment.changed_tests import affected_tests, changed_paths
 import pytest
@@ -34,6 +36,22 @@ from support.paths import ROOT
 )  # fmt: skip
 def test_the_folders_mirror_the_package(changed, tests):
     assert affected_tests(changed, ROOT) == tests
+
+
+def test_what_git_does_not_know_is_one_line(tmp_path):
+    scripts = tmp_path / 'scripts/environment'
+    scripts.mkdir(parents=True)
+    program = scripts / 'changed_tests.py'
+    program.write_text((ROOT / 'scripts/environment/changed_tests.py').read_text())
+    ended = subprocess.run(
+        [sys.executable, '-ES', program],
+        capture_output=True,
+        text=True,
+        env={'GIT_CEILING_DIRECTORIES': str(tmp_path), 'PATH': os.environ['PATH']},
+    )
+    assert (ended.returncode, ended.stdout) == (1, '')
+    (line,) = ended.stderr.splitlines()
+    assert 'git has to know what has changed here' in line
 
 
 def test_committed_edited_and_new_files_count(tmp_path):

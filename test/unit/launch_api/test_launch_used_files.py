@@ -13,6 +13,7 @@ from fixtures.launch_files.packages import (
 import pytest
 
 from amr_description.bringup.command_line import process_specs
+from amr_description.bringup.main import listing
 
 URDF = """<robot name="r"><link name="base_link"/>
 <gazebo><plugin name="p" filename="libgz_ros2_control-system.so">
@@ -102,6 +103,18 @@ def test_a_placeholder_is_the_file_of_that_name_in_the_package(workspace):
         f"controllers.yaml'; {file} is used in its place"
     )
     process_specs(stack, share)  # it can be started
+
+
+def test_long_texts_are_printed_shortened(workspace):
+    _, share = workspace
+    urdf = share / 'urdf/robot.urdf'
+    urdf.write_text(urdf.read_text() + '<!--' + ' ruler' * 500 + '-->')
+    stack = stack_of(share / 'launch/my.launch.py')
+    printed = listing(stack, process_specs(stack, share))
+    assert ' ruler' not in printed
+    assert 'robot_description: <robot name="r"><link name="base_link"/>' in printed
+    assert f'… {len(urdf.read_text()):,} characters' in printed
+    assert ' ruler' in parameters(stack, 'robot_state_publisher-2')
 
 
 def test_a_file_that_is_there_is_used(workspace):

@@ -138,6 +138,17 @@ def test_a_position_beyond_the_range_is_clamped_and_logged():
     ) in log.text
 
 
+def test_what_is_beyond_the_range_by_rounding_alone_is_clamped_without_a_word():
+    log = Lines()
+    world, robot = arm(log=log)
+    lift = robot.joints(['lift'])
+    lift.command('position', [-1.6e-16])
+    world.step(5)
+    assert 'beyond' not in log.text
+    lift.command('position', [-1e-6])
+    assert 'beyond' in log.text
+
+
 @pytest.mark.parametrize('multiplier, offset', [(-1.5, -0.002), (2.0, 0.01)])
 def test_a_mimic_joint_follows_with_multiplier_and_offset(multiplier, offset):
     gear = f'multiplier="{multiplier}" offset="{offset}"'

@@ -113,3 +113,22 @@ def test_any_frame_is_a_message_or_a_protocol_error(kind, found):
     except ProtocolError:
         return
     assert kind in read.types
+
+
+@pytest.mark.parametrize(
+    ('frame', 'is_right'),
+    [
+        ({'type': 'set_factor', 'id': 1, 'simulator': '/s', 'factor': -1.0}, True),
+        ({'type': 'set_factor', 'id': 1, 'simulator': '/s', 'factor': 1e6}, True),
+        ({'type': 'drive', 'robot': '/', 'linear': 99.0, 'angular': -99.0}, True),
+        ({'type': 'drive', 'robot': '/', 'linear': 101.0, 'angular': 0.0}, False),
+        ({'type': 'stop', 'robot': 'two\nlines'}, False),
+    ],
+)
+def test_only_what_has_a_limit_is_limited(frame, is_right):
+    """A speed and a rate are numbers, and each has a reader of its own."""
+    if is_right:
+        decode(json.dumps(frame))
+        return
+    with pytest.raises(ProtocolError, match='cannot be'):
+        decode(json.dumps(frame))
