@@ -261,7 +261,7 @@ class LoadedController:
         self.controller.cleanup()
 
     def reset(self, time: int) -> None:
-        """Begin anew at ``time``, ns, after a reset: the first tick updates, as at first."""
+        """The simulation was reset to ``time``, ns; the next tick updates, as the first does."""
         self.last_update = None
         self._ticks = 0
         if self.is_configured:

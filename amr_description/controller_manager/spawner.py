@@ -19,6 +19,9 @@ from amr_description.controller_manager.spawner_files import (
     not_found,
 )
 from amr_description.errors import ControllerError, NoAnswerError, ParameterError
+from amr_description.text import did_you_mean
+
+_NO_TYPE = 'no type is set for'
 
 
 class ControllerState(Protocol):
@@ -281,6 +284,25 @@ def claimed_by_others(
         if other.name != name and common:
             return other.name, common
     return '', []
+
+
+def reason_of(manager: Manager, controller: str, cause: str, typed: Sequence[str]) -> str:
+    """
+    Return why a controller that the manager has no type for was not loaded.
+
+    Args:
+        manager: Has refused it.
+        controller: Its name.
+        cause: What the manager has logged.
+        typed: The controllers that it has types for.
+    """
+    if cause.startswith(_NO_TYPE):  # the manager has found why in its parameter file
+        return cause
+    return (
+        f'{_NO_TYPE} it: {manager.name} has one for {", ".join(typed) or "no controller"}'
+        f'{did_you_mean(controller, typed)}; name the parameter file that sets its type with '
+        '-p FILE'
+    )
 
 
 def yellow(text: str) -> str:

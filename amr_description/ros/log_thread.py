@@ -8,16 +8,15 @@ holds the interpreter's lock meanwhile, so the thread first waits until stderr t
 """
 
 import queue
-import re
 import threading
 import time
 
 from amr_description.control.contracts import Severity
+from amr_description.control.throttle import Throttle
 from amr_description.ros.rclpy_internals import RcutilsLogger
 from amr_description.streams import wait_for_stderr
 from amr_description.text import encodable
 
-_FIRST_NUMBER = re.compile(r'-?\d.*', re.DOTALL)
 _MOST_WAITING = 2000
 """Lines: those beyond, logged faster than they can be written, are counted and dropped."""
 _STOP_TIMEOUT = 5.0
@@ -93,16 +92,12 @@ class NodeLog:
     def __init__(self, logger: RcutilsLogger, lines: Lines) -> None:
         self._logger = logger
         self._lines = lines
-        self._last_logged: dict[str, float] = {}
+        self._throttle = Throttle(time.monotonic)
 
     def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
         """Log ``text``, unless its like was logged within ``throttle`` s of wall time."""
-        if throttle > 0.0:
-            key, now = _FIRST_NUMBER.sub('', text), time.monotonic()
-            if now - self._last_logged.get(key, -float('inf')) < throttle:
-                return
-            self._last_logged[key] = now
-        self._lines.put(self._logger, severity, text)
+        if throttle <= 0.0 or self._throttle.passes(text, throttle):
+            self._lines.put(self._logger, severity, text)
 
 
 class LoggerLog:

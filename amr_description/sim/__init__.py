@@ -35,6 +35,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``wrenches.py``         pushes from outside
+``contact_sensor.py``   a contact sensor on a robot
 ``contacts.py``         what touches the collisions of a robot
 ``static_geometry.py``  the visible shapes of a world
 ``rays.py``             rays into the world: what is visible, and where they meet it

@@ -90,6 +90,17 @@ def ray_directions(lidar: Lidar) -> Floats:
     return np.stack((x, y, z), axis=-1).reshape(-1, 3)
 
 
+def cloud_rays(lidar: Lidar) -> Singles:
+    """Return the unit directions of all rays, (rings, samples, 3), as points are made of them."""
+    shape = (lidar.vertical.samples, lidar.horizontal.samples, 3)
+    return ray_directions(lidar).astype(np.float32).reshape(shape)
+
+
+def met_ranges(scan: Scan) -> Singles:
+    """Return the ranges of a scan, (rings, samples); NaN where they are infinite."""
+    return np.where(np.isfinite(scan.ranges), scan.ranges, np.float32(np.nan))
+
+
 def _angles(axis: ScanAxis) -> Floats:
     return np.arange(axis.samples, dtype=np.float64) * axis.increment + axis.lower
 

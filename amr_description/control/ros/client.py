@@ -16,6 +16,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.control.ros.absence_diagnosis import errors_of, ManagerProbe
+from amr_description.controller_manager.spawner import reason_of
 from amr_description.errors import ControllerError, NoAnswerError
 from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.runtime import argument_errors
@@ -26,7 +27,6 @@ from amr_description.ros.service_calls import (
     ServiceReadiness,
     wait_until,
 )
-from amr_description.text import did_you_mean
 
 SPAWNER_SERVICES = (
     SetParameters,
@@ -35,7 +35,6 @@ SPAWNER_SERVICES = (
     srv.SwitchController,
 )
 """The types of the services that a spawner calls to activate a controller."""
-_NO_TYPE = 'no type is set for'
 _LOG_PERIOD = 10.0
 """s: how often it is logged that the manager is still not there."""
 _ATTEMPTS = 3
@@ -235,14 +234,7 @@ class ManagerClient:
         if self.has_type(controller):
             return self.logged(controller, since=since)
         cause = self.logged(controller, since=since)
-        if cause.startswith(_NO_TYPE):  # the manager has found why in its parameter file
-            return cause
-        typed = self.typed_controllers()
-        return (
-            f'{_NO_TYPE} it: {self.name} has one for {", ".join(typed) or "no controller"}'
-            f'{did_you_mean(controller, typed)}; name the parameter file that sets its type with '
-            '-p FILE'
-        )
+        return reason_of(self, controller, cause, self.typed_controllers())
 
     def logged(self, *nodes: str, since: float | None = None) -> str:
         """

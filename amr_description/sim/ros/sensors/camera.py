@@ -17,8 +17,6 @@ A picture is made by the worker, from a copy of the state of its instant, and on
 subscribes to: colours, depth, points and JPEGs are each left out by themselves.
 """
 
-from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -28,8 +26,9 @@ from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
 
 from amr_description.control.ros.loop_publisher import LoopTopic
 from amr_description.model.sensors import Camera
-from amr_description.sim.cameras.pictures import encoded, jpeg, PointMaker, with_noise
-from amr_description.sim.cameras.renderer import Picture, Shot
+from amr_description.sim.cameras.pictures import encoded, jpeg
+from amr_description.sim.cameras.renderer import Shot
+from amr_description.sim.cameras.simulated_camera import SimulatedCamera
 from amr_description.sim.ros.sensors.image_messages import (
     camera_info_encoder,
     compressed_image_encoder,
@@ -38,7 +37,6 @@ from amr_description.sim.ros.sensors.image_messages import (
     points_encoder,
 )
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-from amr_description.sim.sensor_schedule import noise_generator
 
 QOS = QoSProfile(depth=10)
 """Reliable: who subscribes best effort, as SensorDataQoS does, hears it too."""
@@ -81,7 +79,7 @@ class CameraTopics(SensorTopics):
             self._topic(CameraInfo, topic, lambda time, _: info(time))
             for topic in dict.fromkeys((camera.camera_info_topic, camera.depth_camera_info_topic))
         ]
-        self._points_of: Callable[..., Any] | None = None
+        self._simulated = SimulatedCamera(camera, context.robot, context.states)
         self._task = context.worker.task(
             f"camera '{mount.name}' of '{context.robot.name}'",
             'a lower <update_rate> or a smaller <image> would do',
@@ -95,15 +93,10 @@ class CameraTopics(SensorTopics):
 
     def measure(self, time: int) -> None:
         """Have a picture made of what is subscribed to."""
-        context, camera = self._context, self._camera
-        mount = camera.mount
+        camera = self._camera
         with_color = self._image.is_heard or self._compressed.is_heard
         with_points = self._points.is_heard
-        shot = Shot(
-            camera,
-            context.robot.pose(mount.link) @ mount.pose,
-            f'{context.robot.name}/{mount.link}',
-            context.states.copy(),
+        shot = self._simulated.shot(
             with_color=with_color or (with_points and bool(camera.image_topic)),
             with_depth=with_points or self._depth.is_heard,
         )
@@ -129,14 +122,7 @@ class CameraTopics(SensorTopics):
     def _make(self, time: int, shot: Shot) -> None:
         """Make a picture and publish it; on the thread of the worker."""
         camera = self._camera
-        picture = self._context.renderer.render(shot)
-        generator = noise_generator(self._context.robot.seed, camera.mount.path, time)
-        if not camera.image_topic:
-            picture = with_noise(picture, camera.noise, generator)
-        elif picture.color is not None:
-            # The depth of a camera with colours has none.
-            colored = with_noise(replace(picture, depth=None), camera.noise, generator)
-            picture = Picture(colored.color, picture.depth)
+        picture = self._simulated.picture(self._context.renderer, time, shot)
         if picture.color is not None:
             pixels = encoded(picture.color, camera.encoding)
             self._image.write(time, pixels)
@@ -145,15 +131,8 @@ class CameraTopics(SensorTopics):
         if picture.depth is not None:
             self._depth.write(time, picture.depth)
             if self._points.is_heard:
-                self._points.write(time, self._make_points(picture))
+                self._points.write(time, self._simulated.points(picture))
         self._send_infos(time)
-
-    def _make_points(self, picture: Picture) -> Any:
-        if self._points_of is None:
-            camera = self._camera
-            self._points_of = PointMaker(camera, with_color=bool(camera.image_topic)).points
-        assert picture.depth is not None
-        return self._points_of(picture.depth, picture.color)
 
     def _send_infos(self, time: int) -> None:
         for topic in self._infos:

@@ -17,17 +17,14 @@ import itertools
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
-from amr_description.model.collision_names import find_collisions, gazebo_name
 from amr_description.model.frames import rotate
-from amr_description.model.robot import Robot
 from amr_description.model.sensors import ContactSensor
 from amr_description.ros.cdr_writer import Writer
 from amr_description.ros.message_types import message_type
-from amr_description.sim.contacts import Contact, ContactReader, geoms_of
+from amr_description.sim.contact_sensor import SimulatedContacts
+from amr_description.sim.contacts import Contact
 from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-from amr_description.text import quote, quote_all
 
 CONTACTS = 'ros_gz_interfaces/msg/Contacts'
 CONTACTS_STATE = 'gazebo_msgs/msg/ContactsState'
@@ -58,8 +55,7 @@ class ContactTopics(SensorTopics):
         is_of_link = sensor.message == CONTACTS_STATE and self._robot.description.has_link(frame)
         self._link = frame if is_of_link else ''
         self._frame_id = context.frame(frame) if is_of_link else WORLD_FRAME
-        collisions = _collisions_of(sensor, context)
-        self._reader = ContactReader(context.world, context.robot, collisions)
+        self._reader = SimulatedContacts(sensor, context.world, context.robot, context.log)
         message = message_type(sensor.message)
         self._topic = context.loop_publisher.topic(
             context.node.create_publisher(
@@ -109,39 +105,6 @@ class ContactTopics(SensorTopics):
             return replace(contact, points=points)
 
         return tuple(moved(each) for each in contacts)
-
-
-def _collisions_of(sensor: ContactSensor, context: SensorContext) -> tuple[tuple[str, int], ...]:
-    """Return the collisions of a sensor: those of its link if none of the named ones is there."""
-    robot, mount = context.robot.description, sensor.mount
-    found, unknown = find_collisions(robot, mount.link, sensor.collisions)
-    if unknown:
-        what = (
-            f'there is no collision {quote_all(unknown)}; there are: {_names(robot, mount.link)}'
-        )
-        if not found:
-            found, _ = find_collisions(robot, mount.link, ())
-            what = f'{what}; it feels all of link {quote(mount.link)}'
-        context.log(
-            Severity.WARN, f"robot '{context.robot.name}': sensor {quote(mount.name)}: {what}"
-        )
-    # Of a link called world, or whose mesh was not found, there may be none.
-    simulated = {*geoms_of(context.world, context.robot).values()}
-    felt = tuple(key for key in found if key in simulated)
-    if not felt:
-        context.log(
-            Severity.WARN,
-            f"robot '{context.robot.name}': sensor {quote(mount.name)} feels nothing: link "
-            f'{quote(mount.link)} has no <collision> that is simulated',
-        )
-    return felt
-
-
-def _names(robot: Robot, link: str) -> str:
-    """Return what the collisions of a robot are called, those of a link if it has any."""
-    links = [robot.link(link)] if robot.link(link).collisions else robot.links
-    names = [gazebo_name(each, number) for each in links for number in range(len(each.collisions))]
-    return ', '.join(names) or 'none'
 
 
 def contacts_bytes(sample: ContactsSample) -> bytes:

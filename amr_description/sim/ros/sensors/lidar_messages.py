@@ -16,7 +16,7 @@ from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 from amr_description.clock import NANOSECONDS
 from amr_description.model.sensors import Lidar
 from amr_description.ros.cdr_template import template_of
-from amr_description.sim.lidar import ray_directions, Scan, scan_angles
+from amr_description.sim.lidar import cloud_rays, met_ranges, Scan, scan_angles
 
 ScanEncoder: TypeAlias = Callable[[Scan], bytes]
 
@@ -75,7 +75,7 @@ def points_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     shape = (lidar.vertical.samples, lidar.horizontal.samples)
     points = np.zeros(shape, POINT)
     points['ring'] = np.arange(shape[0])[:, None]
-    rays = ray_directions(lidar).astype(np.float32).reshape(*shape, 3)
+    rays = cloud_rays(lidar)
     message = PointCloud2()
     message.header.frame_id = frame
     message.height, message.width = shape
@@ -89,12 +89,11 @@ def points_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     begin, layout, density, end = template.constants
 
     def encode(scan: Scan) -> bytes:
-        is_met = np.isfinite(scan.ranges)
-        ranges = np.where(is_met, scan.ranges, np.float32(np.nan))
+        ranges = met_ranges(scan)
         for axis, name in enumerate('xyz'):
             np.multiply(ranges, rays[:, :, axis], out=points[name])
         points['intensity'] = scan.intensities
-        stamp, is_dense = divmod(scan.time, NANOSECONDS), bool(is_met.all())
+        stamp, is_dense = divmod(scan.time, NANOSECONDS), not np.isnan(ranges).any()
         return pack(begin, *stamp, layout, points.tobytes(), density, is_dense, end)
 
     return encode
