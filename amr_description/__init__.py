@@ -49,3 +49,16 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``entry.py``            where console scripts begin: Ctrl-C is quiet while libraries are imported
 ======================  ==========================================================================
 """
+
+import importlib
+from typing import Any
+
+_EXPORTS = {'Simulation': 'amr_description.simulation.in_process'}
+"""What users import from here, and where it is."""
+
+
+def __getattr__(name: str) -> Any:
+    """Return what is exported, imported when it is used: MuJoCo takes a quarter second."""
+    if name not in _EXPORTS:
+        raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+    return getattr(importlib.import_module(_EXPORTS[name]), name)

@@ -4,6 +4,14 @@
 Simulations: what can be done with one, here without ROS, in ``testing/`` over it.
 
 ========================== ========================================================================
+``in_process.py``          Simulation: in this process, without ROS
+``robot.py``               … a robot of it
+``sensors.py``             … its sensors, and their topics
+``measuring.py``           … what they see at an instant
+``local_manager.py``       … its controller manager
+``plain_controllers.py``   … its controllers, and their ports
+``log_lines.py``           … what all of them log
+
 ``api.py``                 what a simulation and its robots can do, wherever they run
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds
 ``parameters.py``          the parameters of a simulation, which are those of the simulator's node

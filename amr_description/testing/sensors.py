@@ -9,7 +9,7 @@ passes. Only what is asked for is subscribed to, and pictures and clouds no long
 while time passes they are not made.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,22 +18,17 @@ from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 
 from amr_description.clock import NANOSECONDS
-from amr_description.errors import SimulationError
-from amr_description.model.sensors import Camera, WorldSensor
+from amr_description.model.sensors import WorldSensor
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.simulation.readings import Contact, Image, Points, Scan
+from amr_description.simulation.sensors import CLOUD, CONTACTS, DEPTH, IMAGE, SCAN, SensorTopics
 from amr_description.simulation.tracebacks import is_for_the_test
 from amr_description.testing.lock_step import LockStep
 
 __tracebackhide__ = is_for_the_test
 
-_SCAN, _IMAGE, _CLOUD = (
-    'sensor_msgs/msg/LaserScan',
-    'sensor_msgs/msg/Image',
-    'sensor_msgs/msg/PointCloud2',
-)
 _QOS = QoSProfile(depth=10)
 
 
@@ -60,14 +55,12 @@ class RobotReadings:
         """
         self._lock_step = lock_step
         self._node = node
-        self._name = name
-        self._namespace = namespace
-        self._topics = dict(_topics_of(sensors, namespace))
+        self._topics = SensorTopics(name, sensors, namespace)
         self._kept: dict[str, PolledTopic[Any]] = {}
 
     def scan(self, topic: str = '') -> Scan:
         """Return what a lidar sees now; of the only one, or of that with a topic."""
-        message = self._read(self._chosen((_SCAN,), topic))
+        message = self._read(self._topics.chosen((SCAN,), topic))
         ranges = np.asarray(message.ranges, np.float32)
         return Scan(
             *_header_of(message),
@@ -79,15 +72,15 @@ class RobotReadings:
 
     def image(self, topic: str = '') -> Image:
         """Return the colours that a camera sees now."""
-        return self._picture(self._chosen((_IMAGE,), topic))
+        return self._picture(self._topics.chosen((IMAGE,), topic))
 
     def depth(self, topic: str = '') -> Image:
         """Return the depths that a camera sees now."""
-        return self._picture(self._chosen((_DEPTH,), topic))
+        return self._picture(self._topics.chosen((DEPTH,), topic))
 
     def points(self, topic: str = '') -> Points:
         """Return the cloud that a camera or lidar sees now."""
-        message = self._read(self._chosen((_CLOUD,), topic))
+        message = self._read(self._topics.chosen((CLOUD,), topic))
         starts = {field.name: field.offset for field in message.fields}
         layout: Any = {
             'names': ['x', 'y', 'z'],
@@ -101,7 +94,7 @@ class RobotReadings:
 
     def contacts(self, topic: str = '') -> list[Contact]:
         """Return what touches a contact sensor now."""
-        message = self._read(self._chosen(_CONTACTS, topic))
+        message = self._read(self._topics.chosen(CONTACTS, topic))
         if hasattr(message, 'states'):  # Gazebo Classic's
             return [Contact(each.collision1_name, each.collision2_name) for each in message.states]
         return [Contact(each.collision1.name, each.collision2.name) for each in message.contacts]
@@ -110,23 +103,6 @@ class RobotReadings:
         """Remove the subscriptions."""
         while self._kept:
             self._kept.popitem()[1].destroy()
-
-    def _chosen(self, kinds: tuple[str, ...], topic: str) -> str:
-        """Return the full name of the only topic of some kinds, or of the one that is named."""
-        topics = [name for name, kind in self._topics.items() if kind in kinds]
-        wanted = f'{self._namespace.rstrip("/")}/{topic}' if topic[:1] not in ('', '/') else topic
-        if wanted in topics or (len(topics) == 1 and not topic):
-            return wanted or topics[0]
-        kind = kinds[0].replace(_DEPTH, f'{_IMAGE} of depth')
-        all_of_it = ', '.join(f'{name} ({kind})' for name, kind in self._topics.items()) or 'none'
-        if topics and not topic:
-            raise SimulationError(
-                f"'{self._name}' has {len(topics)} topics of {kind}; name one: {', '.join(topics)}"
-            )
-        asked = f"'{wanted}' of {kind}" if topic else f'of {kind}'
-        raise SimulationError(
-            f"no sensor of '{self._name}' has a topic {asked}; its sensors have: {all_of_it}"
-        )
 
     def _picture(self, topic: str) -> Image:
         message = self._read(topic)
@@ -139,7 +115,7 @@ class RobotReadings:
 
     def _read(self, topic: str) -> Any:
         """Have a topic measured; return the message of the present instant."""
-        kind = self._topics[topic].partition(' ')[0]
+        kind = self._topics.kinds[topic].partition(' ')[0]
         message_class = message_type(kind)
 
         def read(data: bytes) -> Any:
@@ -159,13 +135,11 @@ class RobotReadings:
 
         lock_step.wait(lambda: topic in lock_step.measure(), f"the simulator to serve '{topic}'")
         message = lock_step.wait(taken, f"a measurement on '{topic}'")
-        if kind in (_IMAGE, _CLOUD):
+        if kind in (IMAGE, CLOUD):
             self._kept.pop(topic).destroy()
         return message
 
 
-_DEPTH = f'{_IMAGE} (depth)'
-_CONTACTS = ('ros_gz_interfaces/msg/Contacts', 'gazebo_msgs/msg/ContactsState')
 _ENCODINGS = {
     'rgb8': (np.uint8, 3),
     'bgr8': (np.uint8, 3),
@@ -176,11 +150,3 @@ _ENCODINGS = {
 
 def _header_of(message: Any) -> tuple[float, str]:
     return nanoseconds(message.header.stamp) / NANOSECONDS, message.header.frame_id
-
-
-def _topics_of(sensors: Sequence[WorldSensor], namespace: str) -> Iterator[tuple[str, str]]:
-    """Yield (topic, its type) of the sensors of a robot."""
-    for sensor in sensors:
-        depth = sensor.depth_topic if isinstance(sensor, Camera) else None
-        for name, kind in sensor.topics:
-            yield sensor.mount.full_name(name, namespace), _DEPTH if name == depth else kind

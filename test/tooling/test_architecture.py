@@ -33,7 +33,7 @@ BASE = {
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {
-    'amr_description': set(),
+    'amr_description': {'simulation'},  # what users import from it, when they do
     'base': set(),
     'model': set(),
     'control': {'model'},

@@ -1,0 +1,318 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+The simulation in this process: the same physics, hardware, controllers and sensors, and no ROS.
+
+No other process, and no thread: time passes in the calls that let it pass. What can be done with
+it is said in :mod:`amr_description.simulation.api`; ``amr_description.testing`` does the same over
+DDS, with the same bits.
+
+A command is a sample, as controllers use them (:mod:`amr_description.control.samples`)::
+
+    sim.send('/diff_drive_controller/cmd_vel', TwistSample(0, linear=0.5, angular=0.0))
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from amr_description.control.contracts import Input, Severity
+from amr_description.control.loop import Loop
+from amr_description.control.plugin_errors import describe
+from amr_description.controller_manager.requests import run_at_once
+from amr_description.errors import SimulationError, SpawnError
+from amr_description.model.controller_files import declared_controllers
+from amr_description.model.frames import Transform
+from amr_description.model.gazebo import ros2_control_host_of
+from amr_description.model.gazebo_bridge import bridged
+from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo_translation import translate
+from amr_description.model.robot import Robot as Description
+from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.parameters import build
+from amr_description.sim.spawning import check_name, read_description, SpawnCode
+from amr_description.simulation.api import SimulationApi
+from amr_description.simulation.local_manager import LocalManager
+from amr_description.simulation.log_lines import LogLines
+from amr_description.simulation.managed_robots import ManagedRobots, ManagerStart
+from amr_description.simulation.manager_arguments import manager_arguments, rollers_of
+from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
+from amr_description.simulation.plugin_controllers import log_translation, start_controllers
+from amr_description.simulation.robot import Robot
+from amr_description.simulation.sensors import Instruments, RobotSensors
+from amr_description.simulation.spawned_controllers import spawn_declared, Topics, topics_of
+from amr_description.simulation.tracebacks import is_for_the_test
+from amr_description.simulation.worlds import world_of
+from amr_description.text import plain_name
+
+__tracebackhide__ = is_for_the_test
+
+_NODE = '/mujoco_sim'
+_WITHOUT_STAMP = {'geometry_msgs/msg/Twist'}
+"""Messages whose samples have a stamp, as those of the same sample with a header have."""
+
+
+class Simulation(SimulationApi[Robot]):
+    """See :class:`~amr_description.simulation.api.SimulationApi`, and the module."""
+
+    # --- beginning and end --------------------------------------------------------------------
+
+    def _start(self, stack: ExitStack) -> None:
+        self._lines = LogLines()
+        self._log = self._lines.log_of(_NODE)
+        self._settings = build(SimulationParameters, self._parameters)
+        self.world = world_of(self._settings, self._log)
+        """The physics; for the model and the state of MuJoCo."""
+        self._calls = _Calls()
+        self._loop = Loop(self.world, _NeverPaced(), self._calls, _Nobody(), CLOCK_PERIOD)
+        self._loop.pause()
+        self._managed = ManagedRobots(self.world, self._loop, self._log, lift=self._settings.lift)
+        self._instruments = Instruments(self.world, self._settings.camera_renderer, self._log)
+        if self._settings.on_fault == 'pause':
+            self.world.faults.on_fault = lambda: self._calls.put(self._loop.pause)
+        stack.callback(self._end)
+
+    def _begin(self) -> None:
+        """Every robot is there, at time 0."""
+
+    def _end(self) -> None:
+        """Stop the motors; hardware and controllers of others may have what has to be closed."""
+        for manager in self._loop.managers:
+            manager.shut_down(self._loop.time)
+        self._instruments.close()
+
+    # --- robots -------------------------------------------------------------------------------
+
+    def _insert(self, name: str, pose: Transform) -> Robot:
+        try:
+            return self._spawn(name, name or self._name, pose)
+        except Exception as error:
+            self._log(Severity.ERROR, describe(error))
+            raise
+
+    def _spawn(self, namespace: str, name: str, pose: Transform) -> Robot:
+        """``name``: of the entity; empty: that of the URDF."""
+        settings, source = self._settings, name or 'robot_description'
+        robot = read_description(self._description, source, self._log, strict=settings.strict)
+        host = ros2_control_host_of(robot)
+        inside = _absolute(namespace or host.namespace)
+        given = name or plain_name(robot.name)
+        translation = bridged(translate(robot), self._bridge)
+        check_name(given, self.world.names)
+        manager = self._manager_of(robot, host.controller_manager_name, inside, translation)
+        start = rollers = None
+        if manager is not None:
+            rate = manager.parameters.update_rate
+            start = ManagerStart(inside, rate, manager.bring_up)
+            rollers = rollers_of(robot, translation, settings.controllers)
+        self._managed.insert(given, robot, pose, start, rollers or {})
+        log_translation(given, translation, inside, self._log)
+        topics = Topics()
+        if manager is not None:
+            controllers = translation.controllers
+            run_at_once(start_controllers(manager.requests, controllers, inside, self._log))
+            topics = self._start_controllers(manager, translation)
+        self._log(Severity.INFO, f"Spawned '{given}'")
+        view = self.world.robot(given)
+        sensors = RobotSensors(self._instruments, view, translation.sensors, inside)
+        return Robot(view, namespace, manager, topics, sensors)
+
+    def _manager_of(
+        self, robot: Description, name: str, namespace: str, translation: GazeboTranslation
+    ) -> LocalManager | None:
+        hardware = hardware_of(robot)
+        if not hardware:
+            return None
+        settings = self._settings
+        arguments = manager_arguments(
+            robot,
+            hardware,
+            namespace,
+            translation,
+            controllers=settings.controllers,
+            ros_args=(),
+            log=self._log,
+        )
+        return LocalManager(
+            robot,
+            hardware,
+            name,
+            namespace,
+            arguments,
+            lines=self._lines,
+            time=lambda: self._loop.time,
+            simulates_mocks=settings.mock_hardware == 'simulate',
+        )
+
+    def _start_controllers(self, manager: LocalManager, translation: GazeboTranslation) -> Topics:
+        """Spawn the controllers; return the topics of the active ones."""
+        name = manager.name.rpartition('/')[2]
+        declared = declared_controllers(self._files, manager.namespace, name)
+        log = self._lines.log_of('/spawner')
+        spawn_declared(log, manager, declared, self._activate)
+        served = manager.served
+        return topics_of(
+            manager,
+            lambda controller, kind: next(served[controller].subscribed(kind), ''),
+            lambda controller, kind: next(served[controller].published(kind), ''),
+            translation,
+            manager.namespace,
+        )
+
+    def _delete(self, robot: Robot) -> None:
+        robot.close()
+        self._managed.remove(robot.name)
+
+    # --- time ---------------------------------------------------------------------------------
+
+    @property
+    def _time(self) -> int:
+        self._require_running()
+        return self.world.time
+
+    @property
+    def _timestep(self) -> int:
+        self._require_running()
+        return self.world.timestep
+
+    def _advance(self, count: int) -> None:
+        loop, step = self._loop, self.world.timestep
+        missing: list[int] = []
+        try:
+            loop.step(count * step, missing.append)
+            while loop.is_stepping:
+                loop.run_once()
+        except BaseException:  # Ctrl-C; what comes next begins a step of its own
+            loop.pause()
+            raise
+        if missing[0]:
+            raise SimulationError(
+                f'{-(-missing[0] // step)} of {count} steps were not made: the simulation was '
+                'played, paused, reset or ended meanwhile'
+            )
+
+    def reset(self) -> None:
+        """Reset: time 0, robots where they were spawned, odometry at zero."""
+        self._require_running()
+        self.world.reset()
+        self.world.time = 0
+        self._loop.reset()
+        for robot in self._robots.values():
+            robot.forget()
+
+    # --- topics -------------------------------------------------------------------------------
+
+    def send_all(self, messages: Mapping[str, Any]) -> None:
+        """Send samples on several topics at the same instant, as by :meth:`send`."""
+        self._require_running()
+        found = {topic: self._inputs_of(topic) for topic in messages}  # before any is sent
+        for topic, inputs in found.items():
+            self._put(topic, inputs, messages[topic])
+
+    def _inputs_of(self, topic: str) -> list[Input[Any]]:
+        """Return the inputs of a topic. Raises SimulationError: there are none."""
+        full = topic if topic.startswith('/') else f'/{topic}'
+        inputs = [each for robot in self._robots.values() for each in robot.inputs(full)]
+        if not inputs:
+            known = [name for robot in self._robots.values() for name in robot.subscribed]
+            raise SimulationError(
+                f"no controller subscribes to '{full}'; there are: {', '.join(known) or 'none'}"
+            )
+        return inputs
+
+    def _put(self, topic: str, inputs: Iterable[Input[Any]], message: Any) -> None:
+        time, taken = self.world.time, False
+        reasons: list[str] = []
+        for each in inputs:
+            sample = message
+            has_stamp = each.port.message not in _WITHOUT_STAMP
+            if has_stamp and getattr(sample, 'stamp', None) == 0:
+                sample = replace(sample, stamp=time)
+            reason = each.check(sample, time) if each.check else ''
+            if reason:
+                reasons.append(reason)
+            elif each.put(sample):
+                taken = True
+        if not taken:
+            raise SimulationError(
+                f"no controller takes what is sent on '{topic}'; "
+                f'{"; ".join(reasons) or "is the one that hears it active?"}'
+            )
+
+    # --- recordings, log ----------------------------------------------------------------------
+
+    def record(self, folder: str | Path) -> None:
+        """Not here: bags are recorded over ROS."""
+        raise SimulationError('a simulation without ROS records no bags yet; one over ROS does')
+
+    def end_recording(self) -> None:
+        """There is none."""
+
+    @property
+    def log(self) -> str:
+        """What simulator, managers and controllers have logged; also in :mod:`logging`."""
+        self._require_running()
+        return ''.join(f'{line}\n' for line in self._lines)
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it runs."""
+        return self._is_running
+
+
+class _NeverPaced:
+    """A pacer that waits for no clock."""
+
+    def pace(self, time: int) -> bool:
+        """Go on."""
+        return True
+
+    def resume(self, time: int) -> None:
+        """Go on."""
+
+
+class _Calls:
+    """Calls between two cycles, of this same thread."""
+
+    def __init__(self) -> None:
+        self._calls: list[Callable[[], None]] = []
+
+    def put(self, call: Callable[[], None]) -> None:
+        """Have a call made before the next cycle."""
+        self._calls.append(call)
+
+    def take(self) -> Iterable[Callable[[], None]]:
+        """Return the queued calls, oldest first."""
+        if not self._calls:
+            return ()
+        calls, self._calls = self._calls, []
+        return calls
+
+    def wait(self) -> object:
+        """Return: nobody else could put a call."""
+        return None
+
+
+class _Nobody:
+    """A publisher that nobody hears: what is read is kept by who sends it."""
+
+    def set_clocks(self, time: int) -> None:
+        """There are no nodes."""
+
+    def publish(self, time: int) -> None:
+        """There are no topics."""
+
+
+def _absolute(namespace: str) -> str:
+    """Return a namespace, absolute. Raises SpawnError: ROS does not allow it."""
+    absolute = f'/{namespace.removeprefix("/")}'
+    parts = absolute.removeprefix('/').split('/')
+    if absolute != '/' and not all(part.isidentifier() and part.isascii() for part in parts):
+        raise SpawnError(
+            f"the entity's namespace is '{namespace}', which ROS does not allow: its parts are "
+            "letters, digits and '_', and do not begin with a digit",
+            SpawnCode.NAMESPACE_INVALID,
+        )
+    return absolute

@@ -1,0 +1,197 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""The controller manager of a robot, in this process: brought up, and asked as by services."""
+
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from typing import Any
+
+from amr_description.control.controller_manager import ControllerManager
+from amr_description.control.plugin_errors import log_error
+from amr_description.control.snapshot import ControllerSnapshot
+from amr_description.control.switching import Strictness
+from amr_description.controller_manager.bring_up import bring_up
+from amr_description.controller_manager.parameters import ManagerParameters
+from amr_description.controller_manager.plain_parameters import PlainParameters
+from amr_description.controller_manager.requests import ManagerRequests, run_at_once
+from amr_description.controller_manager.spawner import ControllerState, reason_of
+from amr_description.errors import ControllerError, ParameterError
+from amr_description.model.hardware_info import HardwareInfo
+from amr_description.model.robot import Robot
+from amr_description.sim.robot_view import RobotView
+from amr_description.simulation.log_lines import LogLines
+from amr_description.simulation.plain_controllers import PlainController, PlainHost, SIM_TIME
+
+_TIMEOUT = 5_000_000_000
+"""ns, of a switch; none is ever waited for."""
+
+
+class LocalManager:
+    """
+    A controller manager without a node.
+
+    It is a :class:`~amr_description.controller_manager.spawner.Manager`.
+    """
+
+    requests: ManagerRequests
+    """Set when it is brought up."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        hardware: Sequence[HardwareInfo],
+        name: str,
+        namespace: str,
+        arguments: Sequence[str],
+        *,
+        lines: LogLines,
+        time: Callable[[], int],
+        simulates_mocks: bool,
+    ) -> None:
+        """
+        Read its parameters.
+
+        Args:
+            robot: Its description.
+            hardware: What its ``<ros2_control>`` blocks say.
+            name: Of the manager.
+            namespace: Of the manager, absolute.
+            arguments: ROS arguments for it and for every controller.
+            lines: Get what it logs.
+            time: Returns the present time, ns.
+            simulates_mocks: Mock hardware is simulated; False: it stays a mock.
+
+        Raises:
+            ParameterError: A parameter is no good, as an ``update_rate`` of 0.
+        """
+        self.name = f'{namespace.rstrip("/")}/{name}'
+        self.namespace = namespace
+        self._robot, self._hardware = robot, hardware
+        self._lines, self._time, self._simulates_mocks = lines, time, simulates_mocks
+        self._log = lines.log_of(self.name)
+        self._host = PlainHost(namespace, lines.log_of, time)
+        self._asked = 0
+        """Lines of log before the last request."""
+        store = PlainParameters(self.name, arguments, SIM_TIME)
+        self.parameters = ManagerParameters(store, arguments, self._log)
+
+    def bring_up(self, view: RobotView, period: int) -> ControllerManager:
+        """
+        Start the hardware, and return the manager.
+
+        Args:
+            view: The robot in the world.
+            period: Between two cycles, ns.
+
+        Raises:
+            HardwareError: A component cannot be started; or what one of a third party raises.
+        """
+        inside = self.namespace.rstrip('/')
+        manager = bring_up(
+            self.parameters,
+            self._log,
+            self._robot,
+            [(info, self._lines.log_of(f'{inside}/{info.name}')) for info in self._hardware],
+            world=view,
+            period=period,
+            simulates_mocks=self._simulates_mocks,
+        )
+        self.requests = ManagerRequests(
+            self._host, self._log, self.parameters, manager, robot=self._robot
+        )
+        return manager
+
+    @property
+    def served(self) -> Mapping[str, PlainController]:
+        """Its controllers, by name."""
+        return self._host.made
+
+    # --- what a spawner asks ------------------------------------------------------------------
+
+    def is_there(self) -> bool:
+        """Return whether it is still there."""
+        return True
+
+    def states(self) -> dict[str, str]:
+        """Return the states of all loaded controllers, by their names."""
+        return {name: each.state for name, each in self.controllers().items()}
+
+    def controllers(self) -> Mapping[str, ControllerState]:
+        """Return all loaded controllers, by their names."""
+        return {each.name: _State(each) for each in self.requests.manager.snapshot.controllers}
+
+    def has_type(self, controller: str) -> bool:
+        """Return whether its parameters hold a type for a controller."""
+        return bool(self.parameters.store.value(f'{controller}.type'))
+
+    def set_parameters(self, controller: str, parameters: Mapping[str, str | list[str]]) -> None:
+        """Set ``<controller>.<key>``. Raises ControllerError."""
+        for key, value in parameters.items():
+            try:
+                self.parameters.store.set(f'{controller}.{key}', value)
+            except ParameterError as error:
+                raise ControllerError(
+                    f'Could not set controller param "{key}" to "{value}" for {controller}: '
+                    f'{self.name} refuses it: {error}'
+                ) from error
+
+    def load(self, name: str) -> bool:
+        """Load a controller."""
+        return self._succeeds(self.requests.load(name))
+
+    def configure(self, name: str) -> bool:
+        """Configure a controller."""
+        return self._succeeds(self.requests.configure(name))
+
+    def unload(self, name: str) -> bool:
+        """Unload a controller."""
+        return self._succeeds(self.requests.unload(name))
+
+    def switch(
+        self,
+        *,
+        activate: Sequence[str] = (),
+        deactivate: Sequence[str] = (),
+        timeout: float = 5.0,
+        activate_asap: bool = True,
+    ) -> str | None:
+        """Switch with strictness STRICT; return ``None``, or why it failed."""
+        self._asked = self._lines.count
+        switch = self.requests.switch(activate, deactivate, Strictness.STRICT, _TIMEOUT)
+        try:
+            run_at_once(switch)
+        except Exception as error:  # a plugin may raise anything
+            return log_error(self._log, error)
+        return None
+
+    def reasons(self, controller: str) -> str:
+        """Return why the last load failed."""
+        names = self.parameters.store.names()
+        typed = sorted(name.removesuffix('.type') for name in names if name.endswith('.type'))
+        cause = self.logged(controller)
+        return cause if self.has_type(controller) else reason_of(self, controller, cause, typed)
+
+    def logged(self, *nodes: str) -> str:
+        """Return what it, and nodes beside it, have logged as errors since the last request."""
+        inside = self.namespace.rstrip('/')
+        names = [self.name, *(f'{inside}/{node}' for node in nodes)]
+        return '; '.join(self._lines.errors_since(self._asked, names))
+
+    def _succeeds(self, request: Coroutine[Any, Any, None]) -> bool:
+        self._asked = self._lines.count
+        try:
+            run_at_once(request)
+        except Exception as error:  # a plugin may raise anything
+            log_error(self._log, error)
+            return False
+        return True
+
+
+class _State:
+    """A controller, as a spawner asks for it."""
+
+    def __init__(self, controller: ControllerSnapshot) -> None:
+        self.name, self.type = controller.name, controller.type
+        self.state = controller.state.label
+        self.claimed_interfaces: Sequence[str] = controller.claimed
+        self.required_command_interfaces: Sequence[str] = controller.required_commands
+        self.required_state_interfaces: Sequence[str] = controller.required_states
