@@ -293,7 +293,7 @@ def _with_short_texts(value: Any) -> Any:
         case list():
             return [_with_short_texts(each) for each in value]
         case str() if len(value) > _LONG:
-            return f'{" ".join(value[:_BEGIN].split())} … {len(value):,} characters'
+            return f'{" ".join(value[:_BEGIN].split())} ... {len(value):,} characters'
     return value
 
 

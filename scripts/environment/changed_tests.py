@@ -82,8 +82,8 @@ if __name__ == '__main__':
         changed = changed_paths(root)
     except (OSError, subprocess.CalledProcessError) as error:
         sys.exit(
-            f'scripts/test --changed: git has to know what has changed here, and does not: {error}; '
-            'name the tests in its place, as: scripts/test unit'
+            f'scripts/test --changed: git does not know what has changed here: {error}; '
+            'name the tests instead, as in scripts/test unit'
         )
     print(*affected_tests(changed, root), sep='\n')
     sys.exit(0)

@@ -69,7 +69,7 @@ def test_who_has_come_meanwhile_is_named_before_anything_is_spawned(monkeypatch)
             yield domain
 
     monkeypatch.setattr(simulation, 'own_domain', domain_with_somebody)
-    monkeypatch.setattr(Simulation, '_spawn', lambda *_: pytest.fail('a robot was spawned'))
+    monkeypatch.setattr(Simulation, '_insert', lambda *_: pytest.fail('a robot was spawned'))
     with pytest.raises(SimulationError, match=r'and pid .* has come into it \(UDP port \d+\)'):
         Simulation(URDF).__enter__()
 

@@ -112,8 +112,8 @@ def test_long_texts_are_printed_shortened(workspace):
     stack = stack_of(share / 'launch/my.launch.py')
     printed = listing(stack, process_specs(stack, share))
     assert ' ruler' not in printed
-    assert 'robot_description: <robot name="r"><link name="base_link"/>' in printed
-    assert f'… {len(urdf.read_text()):,} characters' in printed
+    assert 'robot_description: ' in printed
+    assert f'... {len(urdf.read_text()):,} characters' in printed
     assert ' ruler' in parameters(stack, 'robot_state_publisher-2')
 
 
