@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Set as AbstractSet
 from dataclasses import dataclass, field, replace
 import enum
 import re
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from amr_description.bringup.validation import NUMBER, require, TEXT, Validator
 from amr_description.errors import BringupError
@@ -27,7 +27,7 @@ class NodeRef(Member):
     """A node of a stack as conditions and events see it; ``description.Node`` derives from it."""
 
     executable: str
-    required: bool
+    required: bool | Literal['at start']
 
 
 NameOf: TypeAlias = Callable[[NodeRef], str]

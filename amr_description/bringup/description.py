@@ -64,6 +64,10 @@ _COMMON_FIELDS = {
 }
 
 
+START = 10.0
+"""s of running after which a failure is none of the start."""
+
+
 @dataclass(frozen=True)
 class Respawn:
     """Start a node again whenever it ends, whatever its exit code, until the stack stops."""
@@ -94,7 +98,9 @@ _NODE_FIELDS = {
     'arguments': validation.ARGUMENTS,
     'prefix': validation.TEXT,
     'timeout': validation.NUMBER.or_none(),
-    'required': validation.BOOLEAN,
+    'required': validation.Validator(
+        "True, False or 'at start'", lambda value: value in (True, False, 'at start')
+    ),
     'respawn': validation.Validator('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
     'on_exit': validation.Validator(
         "'continue', 'shutdown' or a function",
@@ -147,8 +153,11 @@ class Node(NodeRef):
     """None: at once."""
     timeout: float | None = None
     """s to wait for ``start_when``; None: the timeout of its stack; ``math.inf``: no timeout."""
-    required: bool = True
-    """Whether its failure (an exit code other than 0, or a signal) stops the stack."""
+    required: bool | Literal['at start'] = True
+    """
+    Whether its failure (an exit code other than 0, or a signal) stops the stack; ``'at start'``:
+    one in the first 10 s does, as of a wrong parameter, and no later one.
+    """
     respawn: Respawn | None = None
     on_exit: Literal['continue', 'shutdown'] | ExitHandler = 'continue'
     """What happens when it ends with exit code 0; or a handler that is called at its end."""

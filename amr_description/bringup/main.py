@@ -299,8 +299,8 @@ def _with_short_texts(value: Any) -> Any:
 
 def _options(node: Node) -> Iterator[str]:
     """Yield what differs from the defaults of a node."""
-    if not node.required:
-        yield 'optional'
+    if node.required is not True:
+        yield 'optional' if not node.required else 'required at start'
     if node.respawn:
         limit = '' if node.respawn.limit is None else f' up to {node.respawn.limit} times'
         yield f'started again{limit}'

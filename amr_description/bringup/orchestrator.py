@@ -219,7 +219,7 @@ class Orchestrator:
             self._reporter.not_started(node, reason)
             self._last_lines[node] = [reason]
             self._scheduler.on_exit(node, CANNOT_START, [reason])
-            self._reporter.respawn(node, self._scheduler.state)
+            self._reporter.respawn(node, self._scheduler.state, [reason])
             self._wake.set()
             return
         if node in self._children:  # a respawn
@@ -287,7 +287,7 @@ class Orchestrator:
                 if node.terminal and child.died_of_ctrl_c:  # only its process group gets that one
                     self._on_stop_signal(signal.SIGINT)
                 self._scheduler.on_exit(node, child.returncode, list(child.last_lines))
-                self._reporter.respawn(node, self._scheduler.state)
+                self._reporter.respawn(node, self._scheduler.state, child.last_lines)
         if self._lifeline.revive_guardian():
             self._reporter.guardian_replaced()
         self._lifeline.reap_adopted(self._running_pids())

@@ -30,6 +30,7 @@ from amr_description.bringup.handlers import Shutdown
 from amr_description.bringup.process import RunningProcess
 from amr_description.bringup.run_log import EventLog
 from amr_description.bringup.scheduler import Expired, Failure, Scheduler, Wait
+from amr_description.text import shorten
 
 _REFRESH_PERIOD = 0.25  # s between two states of the line on a terminal
 _LINE_PERIOD = 5.0  # s between two lines elsewhere
@@ -101,15 +102,28 @@ class Reporter:
             text = f"process has died [pid {process.pid}, exit code {code}, cmd '{command}']."
             self._console.log('ERROR', name, text)
 
-    def respawn(self, node: Node, state: StackState) -> None:
-        """Report when the process of a node will be started again, if it will."""
+    def respawn(self, node: Node, state: StackState, last_lines: Sequence[str]) -> None:
+        """
+        Report when the process of a node that has ended is started again, or that it is no more.
+
+        Args:
+            node: has ended.
+            state: of the stack, now.
+            last_lines: of its output: the last one is the reason, as a rule.
+        """
         own, rule = state.nodes[node], node.respawn
-        if own.restart_at is None or rule is None:
+        if rule is None:
+            return
+        reason = f'; its last line: {shorten(last_lines[-1])}' if last_lines else ''
+        if own.restart_at is None:
+            if rule.limit is not None and own.restarts >= rule.limit:
+                text = f'process is not started again, as it has ended {own.restarts + 1} times'
+                self._console.log('ERROR', self._name_of(node), f'{text} in a row{reason}')
             return
         of = f' of {rule.limit}' if rule.limit is not None else ''
         delay = own.restart_at - state.time
         self._note('respawn', node, seconds=round(delay, 3), restarts=own.restarts)
-        text = f'process is started again in {delay:.1f} s ({own.restarts}{of})'
+        text = f'process is started again in {delay:.1f} s ({own.restarts}{of}){reason}'
         self._console.log('WARNING', self._name_of(node), text)
 
     def lines(self, scheduler: Scheduler) -> None:

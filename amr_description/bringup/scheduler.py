@@ -33,7 +33,7 @@ from amr_description.bringup.conditions import (
     waits_for_request,
     walk,
 )
-from amr_description.bringup.description import Node, nodes_of, Stack
+from amr_description.bringup.description import Node, nodes_of, Stack, START
 from amr_description.bringup.handlers import (
     call_handler,
     Exited,
@@ -199,7 +199,8 @@ class Scheduler:
             returncode: exit code, or minus the signal that ended it.
             last_lines: the last lines of its output, for the handler.
         """
-        if not self.over and self._plan_respawn(node):
+        is_start = self._is_start(node)
+        if not self.over and not is_start and self._plan_respawn(node):
             return
         restarts = self._nodes[node].restarts
         self._nodes[node] = NodeState(started=True, returncode=returncode, restarts=restarts)
@@ -211,7 +212,7 @@ class Scheduler:
         self._call_handlers()
         failed = returncode != 0 or node.respawn is not None
         blocks_a_required_node = any(waiting.required for waiting in self.unreachable())
-        if failed and (node.required or blocks_a_required_node):
+        if failed and (node.required is True or is_start or blocks_a_required_node):
             self.failure = Failure(node, returncode, restarts)
         ends_the_stack = returncode == 0 and node.on_exit == 'shutdown'
         stopped_by_handler = self.shutdown is not None
@@ -367,6 +368,12 @@ class Scheduler:
     def _evaluate(self, node: Node) -> Verdict:
         condition = self._conditions[node]
         return Verdict.HOLDS if condition is None else condition.evaluate(self._state)
+
+    def _is_start(self, node: Node) -> bool:
+        """Return whether the end of a node, now, is one of its start, which is required."""
+        has_run = self._state.time - self._last_start.get(node, self._state.time)
+        is_first = self._nodes[node].restarts == 0
+        return node.required == 'at start' and is_first and has_run < START
 
     def _plan_respawn(self, node: Node) -> bool:
         """Plan the next start of a node that has ended; return whether there will be one."""

@@ -172,7 +172,8 @@ class Translation:
             notes.append(('INFO', 'nothing is started: the launch file starts no process'))
         ready = self._readiness()
         # At once, as the window in whose place it is: it shows what goes wrong with the rest.
-        page = StackNode('viewer', required=False, start_when=self._page_when, timeout=math.inf)
+        optional: dict[str, Any] = {'required': False, 'respawn': Respawn()}
+        page = StackNode('viewer', **optional, start_when=self._page_when, timeout=math.inf)
         return Stack(
             [*self.nodes, *([page] if self._replaced.pages else ())],
             ready_when=ready,

@@ -13,6 +13,8 @@ a localizer            ``map`` → ``odom``, by ground truth or by scans
                        plans on ``/obstacle_map``, which has what the lidar is too high to see
 ``twist_mux``          ``/cmd_vel`` and ``/cmd_vel_teleop`` to the wheels
 =====================  ======================================================================
+
+Maps, localizer and navigator are started again when they fail; the robot stops and goes on.
 """
 
 from contextlib import suppress
@@ -31,6 +33,7 @@ from amr_description.bringup.environment import setup_command
 from amr_description.bringup.input_files import Note
 from amr_description.bringup.stacks.next_steps import VelocityTopic
 from amr_description.bringup.stacks.simulation import SimulatedRobot, simulation
+from amr_description.bringup.stacks.visualization import ANEW
 from amr_description.errors import DescriptionError, UsageError
 
 MUX = 'package://amr_description/config/twist_mux.yaml'
@@ -117,7 +120,8 @@ def _map(map: str, world: str, x: float, y: float) -> list[Node]:
         raise UsageError(f'map:={map}: it is world, {NONE}, or the .yaml file of a map')
     file = str(path_of(map, 'map'))
     parameters: dict[str, ParameterValue] = {'yaml_filename': file, 'autostart_node': True}
-    return [Node('map_server', parameters=[parameters | {'use_sim_time': True}])]
+    given = [parameters | {'use_sim_time': True}]
+    return [Node('map_server', parameters=given, required='at start', respawn=ANEW)]
 
 
 def _localizer(
@@ -140,7 +144,13 @@ def _localizer(
         parameters |= {'set_initial_pose': True}
         parameters |= {f'initial_pose.{name}': value for name, value in pose}
     return [
-        Node(f'{localization}_localizer', parameters=[parameters], start_when=robot.ready_when)
+        Node(
+            f'{localization}_localizer',
+            parameters=[parameters],
+            start_when=robot.ready_when,
+            required='at start',
+            respawn=ANEW,
+        )
     ]
 
 
@@ -159,7 +169,13 @@ def _navigator(robot: SimulatedRobot, is_amr: bool) -> Node:
             parameters['robot_radius'] = horizontal_reach(parse(robot.description))
         parameters['robot_base_frame'] = _base_frame(robot.description)
     files = [str(path_of(NAVIGATOR))] if is_amr else []
-    return Node('navigator', parameters=[*files, parameters], start_when=robot.ready_when)
+    return Node(
+        'navigator',
+        parameters=[*files, parameters],
+        start_when=robot.ready_when,
+        required='at start',
+        respawn=ANEW,
+    )
 
 
 def _on_obstacle_map(navigator: Node, world: str, x: float, y: float) -> list[Node]:
@@ -176,6 +192,8 @@ def _map_of_world(world: str, x: float, y: float, *more: str) -> Node:
         'map_of_world',
         arguments=[world, '--publish', '--start', word_of(x), word_of(y), *more],
         parameters=[{'use_sim_time': True}],
+        required='at start',
+        respawn=ANEW,
     )
 
 

@@ -37,7 +37,7 @@ from amr_description.bringup.stacks.next_steps import (
     velocity_topic,
     VelocityTopic,
 )
-from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, page
+from amr_description.bringup.stacks.visualization import ABOUT_VIEWER, ANEW, page
 from amr_description.errors import DescriptionError, UsageError
 from amr_description.text import plain_name
 
@@ -139,7 +139,12 @@ def _filter(ekf: bool, urdf: str, controllers: str) -> tuple[str, list[Node]]:
             "there, and start 'ros2 run robot_localization ekf_node --ros-args -p "
             "use_sim_time:=true --params-file FILE' beside it"
         )
-    filtering = Node('ekf_node', parameters=[str(path_of(_EKF)), {'use_sim_time': True}])
+    filtering = Node(
+        'ekf_node',
+        parameters=[str(path_of(_EKF)), {'use_sim_time': True}],
+        required='at start',
+        respawn=ANEW,
+    )
     return _CONTROLLERS_BESIDE_EKF, [filtering]
 
 

@@ -3,22 +3,25 @@
 """What a stack shows its user: the page in the browser, and RViz where it is installed."""
 
 from amr_description.ament_index import is_installed
-from amr_description.bringup import Node, path_of
+from amr_description.bringup import Node, path_of, Respawn
 from amr_description.bringup.conditions import Condition
 
+ANEW = Respawn()
+"""Of what a robot does not stand on: controllers and simulator go on when it fails."""
 ABOUT_VIEWER = 'whether to serve the page in the browser: the robot, its values, driving'
 """The help text of every stack's ``viewer:=``."""
 
 
 def page(wanted: bool, start_when: Condition | None = None) -> list[Node]:
     """
-    Return the node that serves the page, if it is wanted; its failure does not stop the stack.
+    Return the node that serves the page, if it is wanted; its failure does not stop the stack, and
+    it is started again.
 
     Args:
         wanted: the stack's argument ``viewer``.
         start_when: best the readiness of the stack, since there is nothing to show before.
     """
-    return [Node('viewer', required=False, start_when=start_when)] if wanted else []
+    return [Node('viewer', required=False, respawn=ANEW, start_when=start_when)] if wanted else []
 
 
 def rviz(config: str) -> list[Node]:

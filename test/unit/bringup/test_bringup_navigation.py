@@ -53,6 +53,24 @@ def test_it_takes_what_the_simulation_takes():
     assert {*names} < {each.name for each in declared(navigation)}
 
 
+def test_only_what_the_robot_stands_on_ends_it():
+    made = stack(ekf='true', localization='scan')
+    stands_on = [each.executable for each in made.nodes if each.required is True]
+    assert stands_on == [
+        'mujoco_sim',
+        'robot_state_publisher',
+        'create',
+        'spawner',
+        'spawner',
+        'twist_mux',
+    ]
+    anew = [each.executable for each in made.nodes if each.respawn]
+    assert anew == [
+        'ekf_node', 'viewer', 'map_of_world', 'scan_localizer', 'map_of_world', 'navigator',
+    ]  # fmt: skip
+    assert {each.executable for each in made.nodes} == {*stands_on, *anew}
+
+
 def test_commands_go_through_the_mux_to_the_wheels():
     mux = node(stack(), 'twist_mux')
     file, own = mux.parameters

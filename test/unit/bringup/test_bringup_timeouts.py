@@ -238,6 +238,44 @@ def test_nothing_is_started_again_once_the_stack_is_over():
     assert scheduler.failure is None
 
 
+@pytest.mark.parametrize('seconds', [0.0, 9.9])
+def test_what_is_required_at_start_ends_the_stack_if_it_fails_then(seconds):
+    node = Node('navigator', required='at start', respawn=RULE)
+    scheduler = begun(node, Node('simulator'))
+    scheduler.advance_to(1000.0 + seconds)
+    scheduler.on_exit(node, 1)
+    assert scheduler.failure == Failure(node, 1)
+    assert scheduler.over
+
+
+def test_what_is_required_at_start_is_started_again_later_and_in_the_end_given_up():
+    node, simulator = Node('navigator', required='at start', respawn=RULE), Node('simulator')
+    scheduler = begun(node, simulator)
+    now = 1010.0
+    scheduler.advance_to(now)
+    for delay in (1.0, 2.0, 4.0):
+        scheduler.on_exit(node, -11)
+        now += delay
+        scheduler.advance_to(now)
+        assert scheduler.startable() == [node]
+        scheduler.on_start(node)
+    scheduler.on_exit(node, 1)
+    assert scheduler.startable() == []
+    assert scheduler.failure is None
+    assert not scheduler.over
+    scheduler.on_exit(simulator, 1)
+    assert scheduler.failure == Failure(simulator, 1)
+
+
+def test_without_a_respawn_a_later_failure_is_only_said():
+    node = Node('navigator', required='at start')
+    scheduler = begun(node, Node('simulator'))
+    scheduler.advance_to(1010.0)
+    scheduler.on_exit(node, 1)
+    assert scheduler.failure is None
+    assert not scheduler.over
+
+
 def test_a_respawn_without_a_delay_is_refused():
     for wrong in ({'delay': 0}, {'backoff': 0.5}, {'limit': 0}):
         with pytest.raises(BringupError, match='delay > 0, backoff >= 1 and limit > 0'):

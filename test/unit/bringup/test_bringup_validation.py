@@ -56,7 +56,7 @@ NODE = Node('talker')
         ({'start_when': NODE}, 'a condition, as exited_cleanly(node)'),
         ({'start_when': exited_cleanly}, 'a condition, as exited_cleanly(node)'),
         ({'timeout': '5'}, 'a number'),
-        ({'required': 'no'}, 'True or False'),
+        ({'required': 'no'}, "True, False or 'at start'"),
         ({'terminal': 1}, 'True or False'),
         ({'respawn': True}, 'Respawn(…)'),
         ({'on_exit': 'shutdwon'}, "'continue', 'shutdown' or a function"),
