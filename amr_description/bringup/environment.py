@@ -179,9 +179,10 @@ def discovery_text(environment: Mapping[str, str]) -> str:
     if server := environment.get(SERVER):
         return f'{domain}, found through the discovery server {server.strip(";")}'
     kinds = {'LOCALHOST': 'this host only', 'OFF': 'nobody is found'}
-    reach = kinds.get(environment.get(RANGE, ''), 'the whole network')
+    reach = kinds.get(environment.get(RANGE) or 'LOCALHOST')
     peers = environment.get(PEERS)
-    return f'{domain}, {reach}' + (f' and {peers}' if peers else '')
+    text = f'{domain}, {reach or "the whole network"}' + (f' and {peers}' if peers else '')
+    return text if reach else f'{text}: whoever is in it can drive'
 
 
 def exports(environment: Mapping[str, str]) -> list[str]:

@@ -22,23 +22,28 @@ with which it adds nothing, together with a profile that keeps discovery on this
 does. Only with static peers it is SUBNET: the peers are taken then, and this participant announces
 itself to the network by multicast, too, which LOCALHOST would not.
 
-LOCALHOST announces itself to this host only, but listens to all: it talks to a participant of
-another host that has this one among its static peers. ``udp_loopback.xml``, which tests have, does
-not hear that one.
+LOCALHOST announces itself to this host only, but Fast DDS listens to all: a participant of another
+host that has this one among its static peers would be heard, and could drive, or exhaust our
+memory (Fast DDS 2.14.5). So unless the user has opened the network, every socket is bound to
+127.0.0.1. Whoever is on this host is reached all the same, whatever is set there: nodes of rclpy
+that listen on all interfaces, on the subnet, or by shared memory.
 
-==================================  =================================================
-what the user has set               what holds
-==================================  =================================================
-nothing of the below                ``udp.xml``, with LOCALHOST ``udp_localhost.xml``
-LOCALHOST and ``udp_loopback.xml``  ``udp_loopback.xml``
-``FASTDDS_BUILTIN_TRANSPORTS``      that, and ``discovery.xml``
-``FASTRTPS_DEFAULT_PROFILES_FILE``  that file, and nothing of ours
-==================================  =================================================
+===========================================  ======================================================
+what the user has set                        what holds
+===========================================  ======================================================
+nothing, LOCALHOST, or OFF                   ``udp_loopback.xml``: this host only
+LOCALHOST and static peers, or a server      ``udp_localhost.xml``
+SUBNET, SYSTEM_DEFAULT                       ``udp.xml``
+``FASTDDS_BUILTIN_TRANSPORTS``               that, and ``discovery.xml``
+``FASTRTPS_DEFAULT_PROFILES_FILE``           that file, and nothing of ours
+===========================================  ======================================================
+
+(ROS takes SUBNET where no range is set.)
 
 This module imports no rclpy.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 import os
 from pathlib import Path
@@ -54,6 +59,7 @@ _TRANSPORTS = 'FASTDDS_BUILTIN_TRANSPORTS'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'  # deprecated; 1 wins over the range and over static peers
 _PEERS = 'ROS_STATIC_PEERS'
+_SERVER = 'ROS_DISCOVERY_SERVER'
 OWN_PROFILES = {
     os.path.realpath(profile) for profile in (PROFILE, UDP, UDP_LOCALHOST, UDP_LOOPBACK)
 }
@@ -76,10 +82,9 @@ def udp_only() -> Iterator[None]:
         yield
     else:
         changes = _changes(os.environ.get(_LOCALHOST_ONLY), os.environ.get(_RANGE))
-        of_this_host = (
-            UDP_LOOPBACK if os.path.realpath(UDP_LOOPBACK) in inherited else UDP_LOCALHOST
-        )
-        os.environ[_PROFILE_VARIABLES[0]] = str(of_this_host if changes else UDP)
+        open_to_some = UDP_LOCALHOST if changes else UDP
+        profile = UDP_LOOPBACK if is_closed(os.environ) else open_to_some
+        os.environ[_PROFILE_VARIABLES[0]] = str(profile)
         previous = {variable: os.environ.get(variable) for variable in changes}
         os.environ.update(changes)
         try:
@@ -96,9 +101,21 @@ def _changes(localhost_only: str | None, discovery_range: str | None) -> dict[st
     """What to tell rcl where the user keeps discovery on this host; elsewhere nothing."""
     if localhost_only == '1':
         return {_LOCALHOST_ONLY: '0', _RANGE: 'SYSTEM_DEFAULT', _PEERS: ''}
-    if discovery_range == 'LOCALHOST':
+    if discovery_range == 'LOCALHOST' or (discovery_range != 'OFF' and is_closed(os.environ)):
         return {_RANGE: 'SUBNET' if os.environ.get(_PEERS) else 'SYSTEM_DEFAULT'}
     return {}
+
+
+def is_closed(environment: Mapping[str, str]) -> bool:
+    """Return whether participants with these variables talk to this host only."""
+    if environment.get(_SERVER):
+        return False
+    if environment.get(_LOCALHOST_ONLY) == '1':
+        return True
+    discovery_range = environment.get(_RANGE)
+    return discovery_range == 'OFF' or (
+        discovery_range in (None, '', 'LOCALHOST') and not environment.get(_PEERS)
+    )
 
 
 def is_udp_only() -> bool:
@@ -110,9 +127,4 @@ def is_udp_only() -> bool:
 
 def reaches_other_hosts() -> bool:
     """Return whether participants of this environment look for others beyond this host."""
-    if os.environ.get(_LOCALHOST_ONLY) == '1':
-        return False
-    discovery_range = os.environ.get(_RANGE)
-    if discovery_range == 'OFF':
-        return False
-    return discovery_range != 'LOCALHOST' or bool(os.environ.get(_PEERS))
+    return not is_closed(os.environ)

@@ -4,6 +4,7 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from importlib import metadata
 import importlib.util
 import os
 import re
@@ -52,6 +53,7 @@ def read_environment(variables: Mapping[str, str]) -> Environment:
         missing_folders={name: _missing(kept.get(name, '')) for name in _LISTS},
         rmw_implementations=_rmw_implementations(kept),
         is_from_wheels=_is_from_wheels(),
+        fastdds_version=_version_of('ros-fastrtps'),
         python_version=f'{sys.version_info.major}.{sys.version_info.minor}',
         unheard_servers=tuple(_unheard_servers(kept.get(_SERVER, ''))),
     )
@@ -101,6 +103,13 @@ def _rmw_implementations(variables: Mapping[str, str]) -> frozenset[str]:
     return frozenset(
         name for name in found if name.removeprefix('rmw_').rpartition('_cpp')[0] in _MIDDLEWARES
     )
+
+
+def _version_of(wheel: str) -> str:
+    try:
+        return metadata.version(wheel)
+    except metadata.PackageNotFoundError:  # of /opt/ros
+        return ''
 
 
 def _is_from_wheels() -> bool:

@@ -23,12 +23,26 @@ class Environment:
     is_from_wheels: bool = True
     """Whether rclpy is one of PyPI's, and none of ``/opt/ros``."""
     python_version: str = '3.12'
+    fastdds_version: str = ''
+    """Empty: not known."""
     unheard_servers: tuple[str, ...] = ()
     """Discovery servers of ``ROS_DISCOVERY_SERVER`` on this host at whose port nobody listens."""
 
     def value(self, name: str) -> str:
         """Return a variable; empty: it is not set, or empty."""
         return self.variables.get(name, '')
+
+
+def is_open(environment: Environment) -> bool:
+    """Return whether programs with these variables listen to other hosts."""
+    if environment.value('ROS_DISCOVERY_SERVER') or any(map(environment.value, PROFILES)):
+        return True
+    if environment.value('ROS_LOCALHOST_ONLY') == '1':
+        return False
+    reach = environment.value('ROS_AUTOMATIC_DISCOVERY_RANGE')
+    return reach in ('SUBNET', 'SYSTEM_DEFAULT') or (
+        reach != 'OFF' and bool(environment.value('ROS_STATIC_PEERS'))
+    )
 
 
 def reaches_network(environment: Environment) -> bool:

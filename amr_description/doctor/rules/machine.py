@@ -3,10 +3,11 @@
 """Rules about the machine: what ROS needs of any, so that it can start and run at all."""
 
 from collections.abc import Iterator
+import re
 
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.environment import reaches_network
+from amr_description.doctor.observations.environment import is_open, reaches_network
 from amr_description.doctor.observations.machine import Interface
 
 _MEGABYTE = 1_000_000
@@ -21,6 +22,9 @@ _HIGHEST_LOAD = 4.0
 """For each processor."""
 _ARCHITECTURE = 'x86_64'
 _SETUP = 'scripts/setup'
+
+_MENDED = (2, 14, 6)
+"""Of Fast DDS."""
 
 
 def c_library(seen: Observations) -> Iterator[Finding]:
@@ -156,6 +160,26 @@ def loopback_down(seen: Observations) -> Iterator[Finding]:
             )
 
 
+def open_network(seen: Observations) -> Iterator[Finding]:
+    """Who is heard by other hosts should have a Fast DDS whose known holes are mended."""
+    if seen.environment is None or not is_open(seen.environment):
+        return
+    version = tuple(int(each) for each in re.findall(r'\d+', seen.environment.fastdds_version))
+    if (2, 14) <= version < _MENDED:
+        yield warning(
+            'open_network',
+            f'other hosts reach the nodes of this one, by Fast DDS {_dotted(version)}',
+            'anybody in the network can drive, and exhaust their memory: '
+            f'{_dotted(_MENDED)} mends ten known holes',
+            'use this host alone: export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST; or keep '
+            'strangers off that network, by a firewall or a VPN',
+        )
+
+
+def _dotted(version: tuple[int, ...]) -> str:
+    return '.'.join(map(str, version))
+
+
 def multicast(seen: Observations) -> Iterator[Finding]:
     """Nodes of other hosts are found by multicast, unless peers or a server are named."""
     if seen.machine is None or seen.environment is None:
@@ -211,6 +235,7 @@ RULES: tuple[Rule, ...] = (
     memory_short,
     overloaded,
     loopback_down,
+    open_network,
     multicast,
     clock_unsynchronised,
     encoding,

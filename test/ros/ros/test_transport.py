@@ -44,7 +44,7 @@ def untouched(monkeypatch):
 
 def test_localhost_is_kept_by_the_profile_as_rmw_would_add_shared_memory_to_it():
     with udp_only():
-        assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
+        assert os.environ[VARIABLES[0]] == str(UDP_LOOPBACK)
         assert os.environ[RANGE] == 'SYSTEM_DEFAULT'
     assert os.environ[RANGE] == 'LOCALHOST'
     with udp_only():  # what a parent of ours has left is not the user's
@@ -66,7 +66,14 @@ def test_what_a_parent_has_left_may_have_another_path(monkeypatch, tmp_path):
         assert os.environ[VARIABLES[0]] == str(UDP)
 
 
-def test_the_profile_of_a_test_stays_on_this_host_alone(monkeypatch):
+@pytest.mark.parametrize('server', ['10.0.0.1:11811', ';10.0.0.1:11811'])
+def test_a_discovery_server_may_be_anywhere(monkeypatch, server):
+    monkeypatch.setenv('ROS_DISCOVERY_SERVER', server)
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
+
+
+def test_what_is_inherited_of_a_closed_parent_does_not_keep_a_child_closed(monkeypatch):
     monkeypatch.setenv(VARIABLES[0], str(UDP_LOOPBACK))
     for discovery_range, profile, passed_on in (
         ('LOCALHOST', UDP_LOOPBACK, 'SYSTEM_DEFAULT'),
@@ -84,7 +91,9 @@ def test_the_profile_of_a_test_stays_on_this_host_alone(monkeypatch):
         ({}, False),
         ({PEERS: '10.0.0.1'}, True),
         ({RANGE: 'SUBNET'}, True),
-        ({RANGE: ''}, True),
+        ({RANGE: ''}, False),
+        ({RANGE: '', PEERS: '10.0.0.1'}, True),
+        ({'ROS_DISCOVERY_SERVER': '10.0.0.1:11811'}, True),
         ({RANGE: 'OFF', PEERS: '10.0.0.1'}, False),
         ({RANGE: 'SUBNET', LOCALHOST_ONLY: '1'}, False),
     ],
@@ -95,15 +104,21 @@ def test_whether_others_may_be_beyond_this_host(monkeypatch, variables, reaches)
     assert reaches_other_hosts() == reaches
 
 
-@pytest.mark.parametrize('discovery_range', ['SUBNET', 'OFF', 'SYSTEM_DEFAULT', None])
+@pytest.mark.parametrize('discovery_range', ['SUBNET', 'SYSTEM_DEFAULT', 'OFF'])
 def test_another_range_stays(monkeypatch, discovery_range):
-    if discovery_range is None:
-        monkeypatch.delenv(RANGE)
-    else:
-        monkeypatch.setenv(RANGE, discovery_range)
+    monkeypatch.setenv(RANGE, discovery_range)
     with udp_only():
-        assert os.environ[VARIABLES[0]] == str(UDP)
+        profile = UDP_LOOPBACK if discovery_range == 'OFF' else UDP
+        assert os.environ[VARIABLES[0]] == str(profile)
         assert os.environ.get(RANGE) == discovery_range
+
+
+def test_nobody_has_to_close_the_network(monkeypatch):
+    monkeypatch.delenv(RANGE)
+    with udp_only():
+        assert os.environ[VARIABLES[0]] == str(UDP_LOOPBACK)
+        assert os.environ[RANGE] == 'SYSTEM_DEFAULT'
+    assert RANGE not in os.environ
 
 
 def test_the_old_variable_for_localhost_counts_as_well(monkeypatch):
@@ -111,7 +126,7 @@ def test_the_old_variable_for_localhost_counts_as_well(monkeypatch):
     monkeypatch.setenv(LOCALHOST_ONLY, '1')
     monkeypatch.setenv(PEERS, '10.0.0.1')
     with udp_only():
-        assert os.environ[VARIABLES[0]] == str(UDP_LOCALHOST)
+        assert os.environ[VARIABLES[0]] == str(UDP_LOOPBACK)
         assert (os.environ[LOCALHOST_ONLY], os.environ[PEERS]) == ('0', '')
         assert os.environ[RANGE] == 'SYSTEM_DEFAULT'
     assert (os.environ[LOCALHOST_ONLY], os.environ[PEERS]) == ('1', '10.0.0.1')

@@ -102,12 +102,17 @@ def test_valid_variables_are_not_changed():
 @pytest.mark.parametrize(
     ('environment', 'text', 'lines'),
     [
-        ({}, 'ROS domain 0, the whole network', []),
+        ({}, 'ROS domain 0, this host only', []),
+        (
+            {RANGE: 'SUBNET'},
+            'ROS domain 0, the whole network: whoever is in it can drive',
+            [f'export {RANGE}=SUBNET'],
+        ),
         ({RANGE: 'LOCALHOST', DOMAIN: '0'}, 'ROS domain 0, this host only', []),
         ({RANGE: 'OFF'}, 'ROS domain 0, nobody is found', [f'export {RANGE}=OFF']),
         (
             {DOMAIN: '5', RANGE: 'SUBNET', PEERS: 'a;b'},
-            'ROS domain 5, the whole network and a;b',
+            'ROS domain 5, the whole network and a;b: whoever is in it can drive',
             [f'export {DOMAIN}=5', f'export {RANGE}=SUBNET', f"export {PEERS}='a;b'"],
         ),
         (

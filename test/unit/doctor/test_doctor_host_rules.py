@@ -61,6 +61,11 @@ FAULTS = {
     ],
     'overloaded': [{'machine': {'load': 9.0}}],
     'loopback_down': [{'machine': {'interfaces': (replace(LOOPBACK, is_up=False), ETHERNET)}}],
+    'open_network': [
+        {**variables(ROS_AUTOMATIC_DISCOVERY_RANGE='SUBNET'), 'fastdds_version': '2.14.5'},
+        {**variables(ROS_STATIC_PEERS='10.0.0.2'), 'fastdds_version': '2.14.5'},
+        {**variables(ROS_DISCOVERY_SERVER='10.0.0.2:11811'), 'fastdds_version': '2.14.0'},
+    ],
     'multicast': [
         {'machine': {'interfaces': (LOOPBACK, TUNNEL)}},
         {'machine': {'interfaces': (LOOPBACK, replace(ETHERNET, has_multicast=False))}},
