@@ -127,7 +127,7 @@ class RenderingError(SimulationError):
     """A renderer of camera pictures does not work on this machine."""
 
 
-class TransformException(AmrError):  # noqa: N818 - these five are called so in tf2
+class TransformException(AmrError):  # noqa: N818 - these are called so in tf2
     """A transform between two frames cannot be looked up."""
 
 
@@ -145,6 +145,18 @@ class ExtrapolationException(TransformException):
 
 class InvalidArgumentException(TransformException):
     """The name of a frame, or a transform, cannot be used."""
+
+
+class TimeoutException(TransformException):
+    """A transform was not known in time, or who knows it has not answered."""
+
+
+class TypeException(TransformException):
+    """Nothing says how a type is transformed or converted."""
+
+
+class NotImplementedException(TransformException):
+    """A buffer does not have this."""
 
 
 class MessageFilterError(AmrError, AssertionError):

@@ -29,6 +29,7 @@ from amr_description.errors import TransformException
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.tf2_ros.buffer_core import BufferCore, CACHE_TIME, InputWarning
+from amr_description.tf2_ros.buffer_interface import BufferInterface
 from amr_description.tf2_ros.frame_graph import FrameRecord, frames_as_string, frames_as_yaml
 from amr_description.tf2_ros.time_cache import StampedTransform
 
@@ -38,7 +39,7 @@ _QUIET = 5.0  # s between two warnings with one key
 _Lookup: TypeAlias = Callable[[BufferCore], TransformStamped]
 
 
-class Buffer:
+class Buffer(BufferInterface):
     """
     The transforms between frames over the last seconds.
 
@@ -60,6 +61,7 @@ class Buffer:
         *,
         clock: Clock | None = None,
     ) -> None:
+        super().__init__()
         self._core = BufferCore(CACHE_TIME if cache_time is None else cache_time.nanoseconds)
         self._changed = threading.Condition()  # its lock guards all that is below
         self._awaited: list[tuple[_Lookup, Future]] = []
@@ -157,9 +159,8 @@ class Buffer:
     ) -> bool | tuple[bool, str]:
         """Return whether it can be looked up within ``timeout``; in a tuple also why not."""
         self._wait_until(_simple(target_frame, source_frame, time), timeout)
-        with self._changed:
-            reason = self._core.explain_failure(target_frame, source_frame, _nanoseconds(time))
-        return (not reason, reason) if return_debug_tuple else not reason
+        can, reason = self.can_transform_core(target_frame, source_frame, time)
+        return (can, reason) if return_debug_tuple else can
 
     def can_transform_full(
         self,
@@ -184,9 +185,81 @@ class Buffer:
         self, target_frame: str, source_frame: str, time: Time | TimeMessage
     ) -> Future:
         """Return a future that becomes the transform as soon as it can be looked up."""
+        return self._future(_simple(target_frame, source_frame, time))
+
+    def wait_for_transform_full_async(
+        self,
+        target_frame: str,
+        target_time: Time | TimeMessage,
+        source_frame: str,
+        source_time: Time | TimeMessage,
+        fixed_frame: str,
+    ) -> Future:
+        """Return a future that becomes the transform between two times once it is known."""
+        times = (target_time, source_time)
+        return self._future(_full(target_frame, source_frame, fixed_frame, *times))
+
+    async def lookup_transform_full_async(
+        self,
+        target_frame: str,
+        target_time: Time | TimeMessage,
+        source_frame: str,
+        source_time: Time | TimeMessage,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """Await a transform between two times in an ``async def`` callback."""
+        return await self.wait_for_transform_full_async(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+
+    def lookup_transform_core(
+        self, target_frame: str, source_frame: str, time: Time | TimeMessage
+    ) -> TransformStamped:
+        """Look up at once, as tf2_py.BufferCore does. Raises TransformException."""
+        return self.lookup_transform(target_frame, source_frame, time)
+
+    def lookup_transform_full_core(
+        self,
+        target_frame: str,
+        target_time: Time | TimeMessage,
+        source_frame: str,
+        source_time: Time | TimeMessage,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """Look up between two times at once. Raises TransformException."""
+        return self.lookup_transform_full(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+
+    def can_transform_core(
+        self, target_frame: str, source_frame: str, time: Time | TimeMessage
+    ) -> tuple[bool, str]:
+        """Return whether it can be looked up now, and why not."""
+        with self._changed:
+            reason = self._core.explain_failure(target_frame, source_frame, _nanoseconds(time))
+        return not reason, reason
+
+    def can_transform_full_core(
+        self,
+        target_frame: str,
+        target_time: Time | TimeMessage,
+        source_frame: str,
+        source_time: Time | TimeMessage,
+        fixed_frame: str,
+    ) -> tuple[bool, str]:
+        """Return whether it can be looked up between two times now, and why not."""
+        try:
+            self.lookup_transform_full(
+                target_frame, target_time, source_frame, source_time, fixed_frame
+            )
+        except TransformException as error:
+            return False, str(error)
+        return True, ''
+
+    def _future(self, lookup: _Lookup) -> Future:
         future = Future()
         with self._changed:
-            self._awaited.append((_simple(target_frame, source_frame, time), future))
+            self._awaited.append((lookup, future))
         self._complete_futures()
         return future
 
@@ -304,7 +377,7 @@ def stamped_transform(message: TransformStamped) -> StampedTransform:
     return StampedTransform(
         message.header.frame_id,
         message.child_frame_id,
-        nanoseconds(message.header.stamp),
+        _nanoseconds(message.header.stamp),
         Transform(
             (translation.x, translation.y, translation.z),
             (rotation.x, rotation.y, rotation.z, rotation.w),

@@ -25,9 +25,9 @@ which is the default of ROS, others would see its nodes, and a publisher that se
 **Path file.** ``amr_description.pth`` makes the package importable by ``.venv/bin/python`` in any
 shell; it names colcon's build folder, where the package's metadata are too.
 
-**Modules under their names in ROS.** PyPI has no tf2_ros, message_filters, sensor_msgs_py and
-ament_copyright. Nodes and tests that import them get those of this package, under the names of the
-originals' modules.
+**Modules under their names in ROS.** PyPI has no tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs,
+message_filters, sensor_msgs_py and ament_copyright. Nodes and tests that import them get those of
+this package, under the names of the originals' modules.
 
 **Packages of CMake.** Of those that PyPI has not, ``cmake/`` holds what packages of users ask for.
 """
@@ -79,11 +79,19 @@ MODULES = {
     'sensor_msgs_py': None,
     'sensor_msgs_py.numpy_compat': 'sensor_msgs_py.numpy_compat',
     'sensor_msgs_py.point_cloud2': 'sensor_msgs_py.point_cloud2',
+    'tf2_geometry_msgs': 'tf2_ros.geometry',
+    'tf2_geometry_msgs.tf2_geometry_msgs': 'tf2_ros.geometry',
+    'tf2_py': 'tf2_ros.core',
     'tf2_ros': 'tf2_ros',
     'tf2_ros.buffer': 'tf2_ros.buffer',
+    'tf2_ros.buffer_client': 'tf2_ros.buffer_client',
+    'tf2_ros.buffer_interface': 'tf2_ros.buffer_interface',
+    'tf2_ros.buffer_server': 'tf2_ros.buffer_server',
     'tf2_ros.static_transform_broadcaster': 'tf2_ros.broadcaster',
     'tf2_ros.transform_broadcaster': 'tf2_ros.broadcaster',
     'tf2_ros.transform_listener': 'tf2_ros.listener',
+    'tf2_sensor_msgs': 'tf2_ros.clouds',
+    'tf2_sensor_msgs.tf2_sensor_msgs': 'tf2_ros.clouds',
 }
 MODULE = """\
 # Written by scripts/setup: the module of this name is that of amr_description here.

@@ -46,7 +46,7 @@ ARROWS = {
     'ros': {'control', 'model'},
     'bag': set(),
     'bag/ros': {'bag', 'ros', 'control', 'model'},
-    'tf2_ros': {'ros', 'model'},
+    'tf2_ros': {'ros', 'model', 'sensor_msgs_py'},  # of clouds
     'message_filters': set(),
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
