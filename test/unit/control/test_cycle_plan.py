@@ -138,7 +138,11 @@ class Bench:
         components = self.manager.resources.components.values()
         return (
             self.diary.calls,
-            self.log.texts(Severity.INFO),  # tracebacks name the calls on the way
+            [
+                text
+                for text in self.log.texts(Severity.INFO)
+                if not text.startswith('Traceback')  # which names the calls on the way
+            ],
             self.manager.snapshot,
             self.manager.next_tick,
             repr(self.manager.periodicity.result()),
