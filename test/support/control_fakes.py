@@ -58,7 +58,12 @@ class FakeLog:
         self.lines.append((severity, text))
 
     def texts(self, severity=Severity.DEBUG):
-        return [text for level, text in self.lines if level >= severity]
+        """The lines; not the tracebacks, which name the calls on the way."""
+        return [
+            text
+            for level, text in self.lines
+            if level >= severity and not text.startswith('Traceback')
+        ]
 
 
 class Faulty:

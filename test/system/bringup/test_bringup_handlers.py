@@ -168,8 +168,8 @@ def test_a_step_is_respawned_up_to_its_limit(tmp_path):
         assert re.findall(
             r'\[step-2\]: process is started again in (\S+ s .*)', bringup.output
         ) == [
-            '0.1 s (1 of 2)',
-            '0.2 s (2 of 2)',
+            '0.1 s (1 of 2); its last line: two',
+            '0.2 s (2 of 2); its last line: two',
         ]
         events = (bringup.logs / 'latest/events.jsonl').read_text().splitlines()
         told = [event for event in map(json.loads, events) if event['event'] == 'respawn']

@@ -362,8 +362,12 @@ def test_a_fallback_takes_the_interfaces_that_it_needs():
     risky.faults['update'] = ZeroDivisionError('by zero')
     bench.manager.tick(0)
     assert bench.active == {'spare'}
-    assert bench.log.texts(Severity.ERROR) == [
-        "Caught exception of type : ZeroDivisionError while updating controller 'risky': by zero",
+    raised, *texts = bench.log.texts(Severity.ERROR)
+    assert raised.startswith(
+        "Caught exception of type : ZeroDivisionError while updating controller 'risky': by zero "
+        '(control_fakes.py:'
+    )
+    assert texts == [
         'Deactivating controllers : [ risky ] as their update resulted in an error!',
         'Deactivating controllers : [ middle tail ] using the command interfaces needed for the '
         'fallback controllers to activate',

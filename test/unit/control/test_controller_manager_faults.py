@@ -196,7 +196,7 @@ def test_an_exception_of_a_plugin_is_a_line_with_its_place_and_its_traceback(doi
         manager.switch(['fake'], [], Strictness.STRICT, 0)
     run(manager, 1)
     manager.shut_down(PERIOD)
-    line, story = (text for text in log.texts(Severity.ERROR) if 'ZeroDivisionError' in text)
+    line, story = (text for _, text in log.lines if 'ZeroDivisionError' in text)
     assert re.search(r': two lines \(control_fakes\.py:\d+\)$', line)
     assert story.startswith('Traceback')
     assert 'control_fakes.py' in story

@@ -138,11 +138,7 @@ class Bench:
         components = self.manager.resources.components.values()
         return (
             self.diary.calls,
-            [
-                text
-                for text in self.log.texts(Severity.INFO)
-                if not text.startswith('Traceback')  # which names the calls on the way
-            ],
+            self.log.texts(Severity.INFO),
             self.manager.snapshot,
             self.manager.next_tick,
             repr(self.manager.periodicity.result()),
