@@ -140,25 +140,25 @@ class Loop:
             self._continue_step(self._step_request)
             return
         if not self._is_running:
-            self._publish_time()
+            self._publish_time(self.time)
             self._commands.wait()
             return
-        self.tick()
-        self._stepper.advance(self._time_to_next_tick(self.time))
+        self._stepper.advance(self._time_to_next_tick(self.tick()))
         # In slow motion the next instant may be far off: queued calls do not wait for it.
         while not self._pacer.pace(self.time):
             self._run_calls()
             if self._is_stopped or not self._is_running:
                 return
 
-    def tick(self) -> None:
-        """Tick the managers due now, and publish."""
+    def tick(self) -> int:
+        """Tick the managers due now, and publish; return the time, ns."""
         time = self.latest_tick = self.time
         self._publisher.set_clocks(time)
         for manager in self.managers:
             if manager.is_due(time):
                 manager.tick(time)
         self._publisher.publish(time)
+        return time
 
     def stop(self) -> None:
         """End :meth:`run`."""
@@ -221,11 +221,12 @@ class Loop:
 
     def _continue_step(self, request: StepRequest) -> None:
         """Run one cycle of a step."""
-        self.tick()
-        self._stepper.advance(min(self._time_to_next_tick(self.time), request.end - self.time))
-        if self.time >= request.end:
+        time = self.tick()
+        self._stepper.advance(min(self._time_to_next_tick(time), request.end - time))
+        time = self.time  # looked up a few times only: it is three calls
+        if time >= request.end:
             self._step_request = None
-            self._publish_time()  # before anybody is told that the step is done
+            self._publish_time(time)  # before anybody is told that the step is done
             request.done(0)
 
     def _cancel_step(self) -> None:
@@ -233,10 +234,10 @@ class Loop:
         if request is not None:
             request.done(request.end - self.time)
 
-    def _publish_time(self) -> None:
+    def _publish_time(self, time: int) -> None:
         """Publish the time without a tick."""
-        self._publisher.set_clocks(self.time)  # a call may have added a node
-        self._publisher.publish(self.time)
+        self._publisher.set_clocks(time)  # a call may have added a node
+        self._publisher.publish(time)
 
     def _run_calls(self) -> None:
         for call in self._commands.take():
