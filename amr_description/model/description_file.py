@@ -13,6 +13,7 @@ line on stderr that says why there is none, for programs that expand a file in a
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib.util import find_spec
 from pathlib import Path
 import re
 import sys
@@ -160,6 +161,11 @@ def _expanded(
     path: str, mappings: Mapping[str, str], warn: Callable[[str], object]
 ) -> tuple[str, dict[int, Origin]]:
     """Return the text that a file expands to, and where its elements come from."""
+    if find_spec('xacro') is None:
+        raise DescriptionError(
+            f'{path}: it holds xacro, and the package that expands it is not installed: pip '
+            'install xacro'
+        )
     from amr_description.model.xacro_lines import expanded
 
     arguments = _Arguments(mappings)

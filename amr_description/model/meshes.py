@@ -52,6 +52,8 @@ _Y_UP_TO_Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 _UP_AXIS = re.compile(rb'<up_axis>\s*([XYZ]_UP)\s*</up_axis>')
 _STL_HEAD = 84
 _STL_RECORD = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('count', '<u2')])
+_PACKAGES = {'trimesh': 'trimesh', 'collada': 'pycollada'}
+"""What may not be installed, and is not needed for binary STL: modules and their packages."""
 _NO_SCALE: Vector = (1.0, 1.0, 1.0)
 
 
@@ -103,6 +105,12 @@ def load_mesh(path: Path, scale: Vector = _NO_SCALE) -> TriangleMesh:
             raise
         except Exception as error:  # the libraries raise what they meet in a broken file
             reason = str(error) or type(error).__name__
+            missing = _PACKAGES.get(getattr(error, 'name', None) or '')
+            if missing:
+                raise MeshError(
+                    f'{path}: {missing}, which reads {suffix}, is not installed: pip install '
+                    f'{missing}'
+                ) from error
             raise MeshError(
                 f'{path}: it cannot be read as {suffix}: {one_line(reason)}; export it again'
             ) from error

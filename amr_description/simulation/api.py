@@ -360,17 +360,17 @@ class SimulationApi(ABC, Generic[RobotType]):
         """Make ``count`` physics steps; each lasts :attr:`timestep`."""
         if count < 0:
             raise SimulationError(f'{count} steps are asked; time goes on, and back by reset()')
+        if not self._rtf:
+            self._advance(count)
+            return
         begin, start = self._time, wall.monotonic()
+        most = max(1, round(PACING_PERIOD * NANOSECONDS / self._timestep))
         while count > 0:
-            steps = count
-            if self._rtf:
-                most = max(1, round(PACING_PERIOD * NANOSECONDS / self._timestep))
-                steps = min(count, most)
+            steps = min(count, most)
             self._advance(steps)
             count -= steps
-            if self._rtf:
-                passed = (self._time - begin) / NANOSECONDS
-                self._wait_until(start + passed / self._rtf)
+            passed = (self._time - begin) / NANOSECONDS
+            self._wait_until(start + passed / self._rtf)
 
     def run(self, seconds: float) -> None:
         """Let time pass, to the nearest physics step; the last commands stay until they expire."""

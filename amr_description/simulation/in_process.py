@@ -178,6 +178,7 @@ class Simulation(SimulationApi[Robot]):
         return self.world.timestep
 
     def _advance(self, count: int) -> None:
+        self._require_running()
         loop, step = self._loop, self.world.timestep
         missing: list[int] = []
         try:

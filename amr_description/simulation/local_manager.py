@@ -19,7 +19,12 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.log_lines import LogLines
-from amr_description.simulation.plain_controllers import PlainController, PlainHost, SIM_TIME
+from amr_description.simulation.plain_controllers import (
+    Newest,
+    PlainController,
+    PlainHost,
+    SIM_TIME,
+)
 
 _TIMEOUT = 5_000_000_000
 """ns, of a switch; none is ever waited for."""
@@ -104,6 +109,11 @@ class LocalManager:
     def served(self) -> Mapping[str, PlainController]:
         """Its controllers, by name."""
         return self._host.made
+
+    @property
+    def outputs(self) -> Mapping[str, Newest]:
+        """What they publish, by topic."""
+        return self._host.outputs
 
     # --- what a spawner asks ------------------------------------------------------------------
 

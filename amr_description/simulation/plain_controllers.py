@@ -61,6 +61,7 @@ class PlainController:
         update_rate: int,
         robot: Robot | None,
         log: Log,
+        all_outputs: dict[str, Newest],
     ) -> None:
         """
         Make a controller.
@@ -73,6 +74,7 @@ class PlainController:
             update_rate: Of the manager, Hz.
             robot: Handed to the controller.
             log: Of the controller.
+            all_outputs: Those of all controllers of the manager, to which its own are added.
 
         Raises:
             ParameterError: A parameter has another type, or is out of its bounds.
@@ -82,6 +84,7 @@ class PlainController:
         self.inputs: dict[str, list[Input[Any]]] = {}
         """By the full names of their topics; so are the outputs."""
         self.outputs: dict[str, Newest] = {}
+        self._all_outputs = all_outputs
         self._table = controller_class.parameters_type
         self._names = NodeNames(node, arguments)
         self._parameters = PlainParameters(node, arguments, SIM_TIME)
@@ -107,9 +110,12 @@ class PlainController:
             self.inputs.setdefault(self._names.resolve(each.port.name), []).append(each)
         for output in self.controller.outputs():
             self.outputs[self._names.resolve(output.port.name)] = Newest(output)
+        self._all_outputs |= self.outputs
 
     def disconnect(self) -> None:
         """Forget its ports."""
+        for topic in self.outputs:
+            self._all_outputs.pop(topic, None)
         self.inputs.clear()
         self.outputs.clear()
 
@@ -151,6 +157,8 @@ class PlainHost:
         self._namespace, self._log_of, self._time = namespace, log_of, time
         self.made: dict[str, PlainController] = {}
         """By name."""
+        self.outputs: dict[str, Newest] = {}
+        """Of all of them, by topic."""
 
     @property
     def time(self) -> int:
@@ -175,6 +183,7 @@ class PlainHost:
             update_rate=update_rate,
             robot=robot,
             log=self._log_of(f'{self._namespace.rstrip("/")}/{name}'),
+            all_outputs=self.outputs,
         )
         self.made[name] = made
         return made

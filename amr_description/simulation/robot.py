@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot of a simulation in this process: what it is sent, and what is read of it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 import math
 from typing import Any
 
@@ -54,6 +54,7 @@ class Robot(RobotApi):
         self.manager = manager
         """Its controllers can be loaded, switched and so on."""
         self._view, self._topics, self._sensors = view, topics, sensors
+        self._outputs: Mapping[str, Newest] = manager.outputs if manager else {}
 
     def twist(self, linear: float, angular: float) -> TwistSample:
         """Return a command, m/s and rad/s, for :attr:`command_topic`."""
@@ -120,24 +121,17 @@ class Robot(RobotApi):
         Of :mod:`amr_description.control.samples`, or whatever its Port takes. None: nothing was
         published since the reset, or by no controller of this robot.
         """
-        found = self._output(topic)
+        found = self._outputs.get(topic)
         return None if found is None else found.sample
 
     def forget(self) -> None:
         """Drop the samples so far: time went back."""
-        for controller in self.manager.served.values() if self.manager else ():
-            for output in controller.outputs.values():
-                output.forget()
+        for output in self._outputs.values():
+            output.forget()
 
     def close(self) -> None:
         """Let go of its sensors, as it is removed."""
         self._sensors.close()
-
-    def _output(self, topic: str) -> Newest | None:
-        for controller in self.manager.served.values() if self.manager else ():
-            if topic in controller.outputs:
-                return controller.outputs[topic]
-        return None
 
     def _newest(self, topic: str, controller: str) -> Any:
         if not topic:

@@ -364,6 +364,29 @@ def test_only_the_simulator_loads_the_physics():
     assert loads(executables, physics) == []
 
 
+def test_the_simulation_without_ros_needs_none():
+    """Nothing that it imports, now or later, or names as a plugin, by whatever way."""
+    of_ros = re.compile(r'(rclpy|rpyutils|ament_\w+|rosidl_\w+|\w+_(msgs|interfaces|srvs))\b')
+    arrows: dict[str, set[str]] = {}
+    for module, _, _, name in own_imports():
+        arrows.setdefault(module, set()).update(with_parents(name))
+    needed = {module for module in SOURCES if room_of(module) == 'simulation'}
+    waiting = list(needed)
+    while waiting:
+        found = arrows.get(waiting.pop(), set()) - needed
+        needed |= found
+        waiting += found
+    assert 'amr_description.hardware.mujoco_system' in needed
+    rooms = {room_of(module) for module in needed}
+    assert rooms & (ROS | {'bringup', 'launch_api', 'viewer', 'workspace'}) == set()
+    wrong = [
+        f'{where(path, line)}: {name}'
+        for module, path, line, name in imports()
+        if module in needed and of_ros.match(name)
+    ]
+    assert wrong == []
+
+
 def test_the_simulator_loads_what_sensors_measure_with_only_for_them():
     """They are a sixth of its imports; ``loads`` sees deferred ones, too."""
     code = 'import amr_description.nodes.mujoco_sim, sys; print(*sys.modules)'

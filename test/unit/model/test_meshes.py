@@ -242,3 +242,13 @@ print({'trimesh', 'collada', 'yourdfpy', 'numpy'} & {*sys.modules})
 """
     run = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, check=True)
     assert run.stdout == 'set()\n'
+
+
+@pytest.mark.parametrize('module, package', [('trimesh', 'trimesh'), ('collada', 'pycollada')])
+def test_a_package_that_is_missing_is_named(tmp_path, monkeypatch, module, package):
+    monkeypatch.setitem(sys.modules, module, None)
+    file = write(tmp_path / 'a.dae', dae(BOX))
+    with pytest.raises(MeshError, match=f'is not installed: pip install {package}'):
+        load_mesh(file)
+    whole = write(tmp_path / 'a.stl', binary_stl(BOX))
+    assert len(load_mesh(whole).faces) == 12

@@ -1,0 +1,82 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+``scripts/test engine [ARGUMENTS OF PYTEST]``: the simulation without ROS, in its own environment.
+
+It has the packages of scripts/engine.lock and engine-tests.lock, and none of ROS. Its Python is
+that of ``AMR_PYTHON``, else the newest one here that is not 3.12, which is ROS's, else this one.
+Any system will do: ``python scripts/environment/engine.py``.
+"""
+
+from collections.abc import Mapping, Sequence
+import hashlib
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+
+ROOT = Path(__file__).resolve().parents[2]
+LOCKS = (ROOT / 'scripts' / 'engine.lock', ROOT / 'scripts' / 'engine-tests.lock')
+VERSIONS = ('3.14', '3.13')
+"""Of Pythons that are looked for, the first one counts."""
+FOLDERS = (
+    'base', 'model', 'control', 'controllers', 'controller_manager', 'hardware', 'sim',
+    'simulation', 'navigation', 'bag',
+)  # fmt: skip
+"""Of test/unit/: what the simulation is made of. Exceptions: test/support/without_ros.py."""
+_OF_ROS = ('AMENT_PREFIX_PATH', 'PYTHONPATH', 'ROS_DISTRO', 'LD_LIBRARY_PATH')
+
+
+def find_python(environment: Mapping[str, str]) -> str:
+    """Return the Python of the environment that is to be made."""
+    asked = environment.get('AMR_PYTHON')
+    if asked:
+        return asked
+    home = Path(environment.get('PYENV_ROOT') or Path.home() / '.pyenv')
+    for version in VERSIONS:
+        of_pyenv = sorted(home.glob(f'versions/{version}.*/bin/python{version}'))
+        for python in (shutil.which(f'python{version}'), *of_pyenv):
+            # A shim of pyenv says that another version is chosen.
+            if python and not subprocess.call([python, '-c', ''], stderr=subprocess.DEVNULL):
+                return str(python)
+    return sys.executable
+
+
+def prepared(python: str) -> Path:
+    """Return the Python of an environment with the packages of the locks, which is made once."""
+    about = subprocess.check_output(
+        [python, '-c', 'import sys; print(*sys.version_info[:3], sep=".")'], text=True
+    ).strip()
+    key = hashlib.sha256(b''.join(path.read_bytes() for path in LOCKS)).hexdigest()[:12]
+    folder = ROOT / 'build' / 'engine' / f'{about}-{key}'
+    own = folder / ('Scripts/python.exe' if os.name == 'nt' else 'bin/python')
+    if (folder / 'complete').exists():
+        return own
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.check_call([python, '-m', 'venv', str(folder)])
+    install = [str(own), '-m', 'pip', 'install', '--quiet', '--no-deps', '--only-binary=:all:']
+    install += ['--no-input', '--disable-pip-version-check']
+    subprocess.check_call([*install, *(f'-r{path}' for path in LOCKS)])
+    (folder / 'complete').touch()
+    return own
+
+
+def environment_of(environment: Mapping[str, str]) -> dict[str, str]:
+    """Return an environment in which this checkout is imported, and nothing of ROS."""
+    kept = {name: value for name, value in environment.items() if name not in _OF_ROS}
+    return {**kept, 'PYTHONPATH': os.pathsep.join((str(ROOT), str(ROOT / 'test')))}
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run the tests; return the exit code."""
+    python = prepared(find_python(os.environ))
+    options = ['--noconftest', '-p', 'support.without_ros', '-p', 'no:cacheprovider']
+    tests = list(arguments) or ['-q', *(f'test/unit/{folder}' for folder in FOLDERS)]
+    return subprocess.call(
+        [str(python), '-m', 'pytest', *options, *tests], env=environment_of(os.environ), cwd=ROOT
+    )
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
