@@ -10,6 +10,7 @@ Every error that this package raises on purpose.
     │   └── MeshError        a mesh file that it names cannot be used
     ├── ParameterError       a parameter, or a parameter file, cannot be used
     ├── CallbackError        callbacks of a node raise again and again: it is broken
+    ├── LimitError           a program has taken more time than it may
     ├── ResourceError        a package, its executable, or the file of a URI is not found
     ├── ControlError         ros2_control refuses or fails
     │   ├── InterfaceError   an interface is unknown, unavailable or claimed
@@ -69,6 +70,10 @@ class ParameterError(AmrError):
 
 class CallbackError(AmrError):
     """Callbacks of a node raise again and again: it is broken."""
+
+
+class LimitError(AmrError):
+    """A program has taken more time than it may."""
 
 
 class ResourceError(AmrError):

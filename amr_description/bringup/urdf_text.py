@@ -2,23 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """The text of the robot description for a stack; xacro runs in a child process."""
 
-import contextlib
-import resource
 import shlex
-import signal
-import subprocess
 import sys
 
 from amr_description.ament_index import path_of
 from amr_description.entry import python_command
-from amr_description.errors import BringupError, UsageError
+from amr_description.errors import BringupError, LimitError, UsageError
+from amr_description.limited_child import Limits, run_limited
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.model.origins import with_file
 from amr_description.model.plain_xml import plain_xml
 from amr_description.model.xacro_markup import is_xacro
 
-_PROCESSOR_TIME = 60  # s; large robots take one or two
-_MEMORY = 4 * 2**30  # bytes of address space
+_LIMITS = Limits(seconds=60)  # large robots take one or two
 _EXPAND = python_command(
     'from amr_description.model.description_file import main; sys.exit(main(sys.argv[1:]))'
 )
@@ -63,37 +59,12 @@ def _words(xacro_args: str) -> list[str]:
 
 
 def _expanded(words: list[str]) -> str:
-    with subprocess.Popen(
-        [*_EXPAND, *words],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-    ) as process:
-        _limit(process.pid)
-        try:
-            text, log = (stream.decode(errors='replace') for stream in process.communicate())
-        except BaseException:  # Ctrl-C
-            process.kill()
-            raise
-    if process.returncode == -signal.SIGXCPU:
-        raise BringupError(
-            f'xacro: {words[0]}: no end after {_PROCESSOR_TIME} s; does an expression of it end?'
-        )
-    if process.returncode:
-        reason = log.splitlines()[-1] if log else f'exit code {process.returncode}'
+    try:
+        ended = run_limited([*_EXPAND, *words], _LIMITS)
+    except LimitError as error:
+        raise BringupError(f'xacro: {words[0]}: {error}; does an expression of it end?') from None
+    if ended.code:
+        reason = ended.log.splitlines()[-1] if ended.log else f'exit code {ended.code}'
         raise BringupError(f'xacro: {reason}')
-    print(log, end='', file=sys.stderr)
-    return text
-
-
-def _limit(pid: int) -> None:
-    """Limit time and memory of a process; it then ends even if the supervisor is killed."""
-    limits = {
-        resource.RLIMIT_CPU: (_PROCESSOR_TIME, _PROCESSOR_TIME + 1),
-        resource.RLIMIT_AS: (_MEMORY, _MEMORY),
-        resource.RLIMIT_CORE: (0, 0),
-    }
-    for kind, limit in limits.items():
-        # It may have ended already, or a lower limit may be set.
-        with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
-            resource.prlimit(pid, kind, limit)
+    print(ended.log, end='', file=sys.stderr)
+    return ended.text

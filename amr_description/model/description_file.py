@@ -96,7 +96,7 @@ def description_at(
         ResourceError: the package or the scheme of the URI is not known.
         DescriptionError: as :func:`description_text`.
     """
-    path, query = _split(uri)
+    path, query = split_uri(uri)
     given = dict(parse_qsl(query, keep_blank_values=True)) | dict(mappings or {})
     text, origins = _read(path, given, warn)
     text = with_file(text, str(path)) if origins is None else with_origins(text, origins)
@@ -106,13 +106,15 @@ def description_at(
 def takes_arguments(uri: str) -> bool:
     """Return whether a URI, as :func:`description_at` takes it, is that of a xacro file."""
     try:
-        return is_xacro(_split(uri)[0])
+        return is_xacro(split_uri(uri)[0])
     except AmrError:  # whoever reads it says why
         return False
 
 
-def _split(uri: str) -> tuple[Path, str]:
-    """Return the file of a URI, and the arguments of a xacro file behind ``?``."""
+def split_uri(uri: str) -> tuple[Path, str]:
+    """
+    Return the file of a URI, and the arguments of a xacro file behind ``?``. Raises ResourceError.
+    """
     file, mark, query = uri.partition('?')
     path = resolve_uri(file)
     if mark and not is_xacro(path):  # it is part of the name

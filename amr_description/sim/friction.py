@@ -58,22 +58,32 @@ def apply_default_friction(spec: mujoco.MjSpec, path: Path) -> None:
         spec: Read from the file; edited.
         path: The MJCF file.
     """
-    root = etree.parse(path).getroot()
-    _include(root, path.parent)
-    _set_default(root)
     try:
+        root = _parsed(path)
+        _include(root, path.parent)
+        _set_default(root)
         probed = mujoco.MjSpec.from_string(etree.tostring(root, encoding='unicode'))
-    except ValueError:
+    except (ValueError, OSError, etree.XMLSyntaxError):
         return  # it attaches models by relative paths: their frictions stay as they are
+    if len(probed.geoms) != len(spec.geoms):
+        return  # no XML, though MuJoCo reads it: likewise
     for geom, other in zip(spec.geoms, probed.geoms, strict=True):
         if other.friction[0] == _SENTINEL:
             geom.friction[0] = DEFAULT_FRICTION
 
 
+def _parsed(path: Path) -> etree._Element:
+    """Read a file as MuJoCo does, which takes what is not quite XML: ``<!-- a -- b -->``."""
+    root = etree.parse(path, etree.XMLParser(recover=True, resolve_entities=False)).getroot()
+    if root is None:
+        raise ValueError(f'{path}: no XML')
+    return root
+
+
 def _include(root: etree._Element, folder: Path) -> None:
     """Expand ``<include>``; MuJoCo looks for the files in the folder of the world."""
     for element in tuple(root.iter('include')):
-        included = etree.parse(folder / element.get('file', '')).getroot()
+        included = _parsed(folder / element.get('file', ''))
         _include(included, folder)
         parent = element.getparent()
         index = parent.index(element)

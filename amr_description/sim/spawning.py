@@ -19,12 +19,14 @@ from amr_description.model.findings import Finding
 from amr_description.model.frames import Quaternion, Transform
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
+from amr_description.text import one_line, shorten
 
 _QUOTED = re.compile(r'"[^"]*"')
 _MOST_KINDS = 6
 _SHORT = 30
 _FARTHEST = 1e8
 """m; numerics of physics are lost beyond."""
+_LONGEST_NAME = 200
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
 
 
@@ -48,10 +50,18 @@ class SpawnCode(enum.IntEnum):
 
 
 def check_name(name: str, taken: Collection[str]) -> None:
-    """Raise SpawnError: the name is taken, or has other than letters, digits and ``_ . -``."""
+    """
+    Raise SpawnError: the name is taken, too long, or has other than letters, digits and ``_ . -``.
+    """
+    if len(name) > _LONGEST_NAME:
+        raise SpawnError(
+            f"'{shorten(name)}' cannot name an entity: it has {len(name)} characters, and "
+            f'{_LONGEST_NAME} are the most',
+            SpawnCode.NAME_INVALID,
+        )
     if not _NAME.fullmatch(name):
         raise SpawnError(
-            f"'{name}' cannot name an entity: letters, digits and _ . - will do",
+            f"'{one_line(name)}' cannot name an entity: letters, digits and _ . - will do",
             SpawnCode.NAME_INVALID,
         )
     if name in taken:

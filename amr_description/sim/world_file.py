@@ -34,6 +34,8 @@ Euler integrator has to be chosen by ``integrator``.
 from collections.abc import Iterator
 from dataclasses import dataclass
 import math
+from pathlib import Path
+import re
 
 import mujoco
 
@@ -62,6 +64,10 @@ _SOLVERS = {
     'CG': mujoco.mjtSolver.mjSOL_CG,
     'Newton': mujoco.mjtSolver.mjSOL_NEWTON,
 }
+
+_MOST_REPLICAS = 5_000
+"""MuJoCo takes over 15 s to read a hundred thousand."""
+_REPLICATE = re.compile(r'<replicate\b[^>]*?\bcount="\s*(\d{1,18})\s*"[^>]*>|(</replicate\s*>)')
 
 MEASURED_OPTIONS = (
     ('integrator', mujoco.mjtIntegrator.mjINT_EULER, mujoco.mjtIntegrator.mjINT_DISCRETE),
@@ -143,15 +149,41 @@ def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.M
         SimulationError: There is no such world, or MuJoCo cannot read it.
     """
     path = world_path(world)
+    _check_replicas(world, path)
     try:
         spec = mujoco.MjSpec.from_file(str(path))
     except ValueError as cause:
         raise SimulationError(
             f"world '{world}': {path}: {compiler_message(str(cause))}"
         ) from cause
+    for geom in spec.geoms:
+        if not all(map(math.isfinite, geom.friction)):
+            named = f"the geom '{geom.name}'" if geom.name else 'a geom'
+            raise SimulationError(
+                f"world '{world}': {path}: the friction of {named} is "
+                f'{" ".join(f"{each:g}" for each in geom.friction)}; finite numbers are needed'
+            )
     apply_default_friction(spec, path)
     prepare_world(spec, settings)
     return spec
+
+
+def _check_replicas(world: str, path: Path) -> None:
+    """Raise SimulationError: ``<replicate>`` would make more bodies than can be simulated."""
+    text = path.read_text('utf-8', errors='replace')
+    counts: list[int] = []
+    total = 0
+    for count, end in _REPLICATE.findall(text):
+        if end:
+            counts[-1:] = []
+            continue
+        counts.append(int(count))
+        total += math.prod(counts)
+    if total > _MOST_REPLICAS:
+        raise SimulationError(
+            f"world '{world}': {path}: <replicate> makes {total} copies, and {_MOST_REPLICAS} are "
+            'the most'
+        )
 
 
 def prepare_world(spec: mujoco.MjSpec, settings: WorldSettings = _FILE_SETTINGS) -> None:

@@ -28,8 +28,8 @@ MOST_LINES_OF_A_FUNCTION = 60
 
 BASE = {
     'ament_index', 'argument_types', 'clock', 'colors', 'entry', 'errors', 'former_parameters',
-    'forking', 'launch_log', 'launch_variables', 'parameter_files', 'parameters', 'registry',
-    'ros_arguments', 'stand_ins', 'streams', 'terminal', 'text',
+    'forking', 'launch_log', 'launch_variables', 'limited_child', 'parameter_files',
+    'parameters', 'registry', 'ros_arguments', 'stand_ins', 'streams', 'terminal', 'text',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {
@@ -157,7 +157,7 @@ IMPURE = {
     'time',
 }  # fmt: skip
 # Base modules that are about the process that they run in.
-OF_THE_PROCESS = {'entry', 'forking', 'streams'}
+OF_THE_PROCESS = {'entry', 'forking', 'limited_child', 'streams'}
 # What the supervisor of a stack must never load, directly or by way of others: it must start at
 # once, and no crash of these may take it down. Message packages load DDS.
 NOT_FOR_THE_SUPERVISOR = re.compile(r'(rclpy|mujoco|numpy|websockets|\w+_(msgs|interfaces))\b')

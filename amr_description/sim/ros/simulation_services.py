@@ -49,6 +49,7 @@ from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, SimulationState
+from amr_description.sim.ros.trusted_files import distrust
 
 FEATURES = (
     SimulatorFeatures.NAMED_POSES,
@@ -289,6 +290,8 @@ class WorldServices:
             raise RequestError('uri is empty; file:// or a path will do', response.NO_RESOURCE)
         try:
             path = world_path(_file_of(request.uri))
+            if reason := distrust(path):
+                raise SimulationError(f'world {path} {reason}')
             await self._simulation.load_world(str(path))
         except (ResourceError, SimulationError) as error:
             raise RequestError(str(error), response.RESOURCE_PARSE_ERROR) from error

@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The services of ``simulation_interfaces`` that spawn, delete and list entities."""
 
+from pathlib import Path
+from urllib.parse import parse_qsl
+
 from geometry_msgs.msg import PoseStamped
 from rclpy.exceptions import InvalidNamespaceException
 from rclpy.node import Node
@@ -17,19 +20,30 @@ from simulation_interfaces.srv import (
 from amr_description.ament_index import OWN_PACKAGE, resolve_uri
 from amr_description.control.contracts import Severity
 from amr_description.control.plugin_errors import log_error
+from amr_description.entry import python_command
 from amr_description.errors import (
     DescriptionError,
+    LimitError,
     RequestError,
     ResourceError,
     SimulationError,
     SpawnError,
 )
-from amr_description.model.description_file import description_at
+from amr_description.limited_child import Ended, Limits, run_limited
+from amr_description.model.description_file import (
+    description_at,
+    split_uri,
+    takes_arguments,
+)
 from amr_description.model.gazebo import ros2_control_host_of
+from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.ros.messages import transform_of
+from amr_description.ros.runtime import run_in_thread
 from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
+from amr_description.sim.ros.trusted_files import distrust
+from amr_description.sim.spawn_cost import announce, cost_of
 from amr_description.sim.spawning import read_description, SpawnCode
 from amr_description.text import plain_name, unwrap
 
@@ -47,6 +61,11 @@ SPAWN_FORMATS = ('urdf', 'xacro')
 
 _SOURCES = (f'package://{OWN_PACKAGE}/urdf',)
 _SUFFIXES = ('.urdf', '.xacro')
+_LIMITS = Limits(seconds=10, memory=2 * 2**30, wall=60.0)
+"""Of the expansion of a xacro file; large robots take one or two seconds."""
+_EXPAND = python_command(
+    'from amr_description.model.description_file import main; sys.exit(main(sys.argv[1:]))'
+)
 
 
 class SpawnServices:
@@ -73,7 +92,7 @@ class SpawnServices:
         uri = '' if request.resource_string else request.uri
         source = request.uri or request.name or 'robot_description'
         try:
-            text = request.resource_string or self._read(uri)
+            text = request.resource_string or await self._read(uri)
             response.entity_name = await self._spawn(request, text, source)
         except Exception as error:
             log_error(self._simulation.log, error)
@@ -88,7 +107,9 @@ class SpawnServices:
             resource = each.entity_resource
             source = resource.uri or each.name or 'robot_description'
             try:
-                text = self._read(resource.uri) if resource.uri else resource.resource_string
+                text = resource.resource_string
+                if resource.uri:
+                    text = await self._read(resource.uri)
                 spawned.entity_name = await self._spawn(each, text, source)
                 spawned.result.result = Result.RESULT_OK
             except Exception as error:  # a third-party component may raise anything
@@ -134,6 +155,7 @@ class SpawnServices:
         strict = self._simulation.parameters.strict
         robot = read_description(text, source, self._simulation.log, strict=strict)
         _check_frame(request.initial_pose)
+        announce(request.name or robot.name, cost_of(robot), self._simulation.log)
         namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
         name = await self._simulation.entities.spawn(
             request.name or plain_name(robot.name),
@@ -145,17 +167,46 @@ class SpawnServices:
         self._simulation.log(Severity.INFO, f"Spawned '{name}'")
         return name
 
-    def _read(self, uri: str) -> str:
-        """Read the resource of a request. Raises SpawnError."""
+    async def _read(self, uri: str) -> str:
+        """Read the resource of a request, aside if it is a program. Raises SpawnError."""
         if not uri:
             raise SpawnError(
                 'neither resource_string nor uri is given; one of them holds the URDF',
                 SpawnCode.NO_RESOURCE,
             )
         try:
-            return description_at(uri, warn=self._node.get_logger().warning)
-        except (DescriptionError, ResourceError, SimulationError) as error:
+            path, query = split_uri(uri)
+            if reason := distrust(path):
+                raise DescriptionError(f'{path} {reason}')
+            if not takes_arguments(uri):
+                return description_at(uri, warn=self._node.get_logger().warning)
+            return await self._expanded(path, query)
+        except (DescriptionError, LimitError, ResourceError, SimulationError) as error:
             raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
+
+    async def _expanded(self, path: Path, query: str) -> str:
+        """Return what a xacro file expands to, in a child. Raises DescriptionError, LimitError."""
+        given = parse_qsl(query, keep_blank_values=True)
+        words = [*_EXPAND, str(path), *(f'{name}:={value}' for name, value in given)]
+        found: list[Ended | LimitError] = []
+
+        def run() -> None:
+            try:
+                found.append(run_limited(words, _LIMITS))
+            except LimitError as error:
+                found.append(error)
+
+        assert self._node.executor is not None, 'it serves this request'
+        await run_in_thread(run, self._node.executor, f'xacro {path.name}')
+        ended = found[0]
+        if isinstance(ended, LimitError):
+            raise DescriptionError(f'xacro: {ended}; does an expression of it end?') from ended
+        *others, last = ended.log.splitlines() or [f'exit code {ended.code}']
+        if ended.code:
+            raise DescriptionError(last)
+        for line in (*others, *([last] if ended.log else [])):
+            self._node.get_logger().warning(line.removeprefix('warning: '))
+        return with_absolute_paths(ended.text, path.parent)
 
 
 def _check_frame(pose: PoseStamped) -> None:

@@ -14,6 +14,7 @@ from amr_description.bringup.stack_files import make_stack
 from amr_description.bringup.stacks.simulation import simulation
 from amr_description.bringup.stacks.teleop import teleop
 from amr_description.errors import AmrError, SimulationError
+from amr_description.limited_child import Limits
 from amr_description.model.description_file import located_text
 from amr_description.model.origins import with_file
 from amr_description.model.urdf import parse
@@ -318,7 +319,7 @@ def test_a_xacro_file_is_expanded_with_its_arguments(installed, capsys):
     ],
 )
 def test_an_endless_expansion_is_stopped(tmp_path, monkeypatch, expression, words):
-    monkeypatch.setattr('amr_description.bringup.urdf_text._PROCESSOR_TIME', 1)
+    monkeypatch.setattr('amr_description.bringup.urdf_text._LIMITS', Limits(seconds=1))
     bomb = tmp_path / 'bomb.xacro'
     bomb.write_text(f'<robot name="${{{expression}}}" xmlns:xacro="http://ros.org/wiki/xacro"/>')
     with pytest.raises(AmrError, match=words):
