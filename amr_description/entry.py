@@ -84,6 +84,12 @@ def run(
         return main()
     except KeyboardInterrupt:
         return interrupted
+    except (OSError, RuntimeError) as error:  # RuntimeError: of Fast DDS
+        if 'Too many open files' not in str(error):
+            raise
+        program = os.path.basename(sys.argv[0])
+        print(f'{program}: too many open files: `ulimit -n` is too low here', file=sys.stderr)
+        return 1
 
 
 def _imported(

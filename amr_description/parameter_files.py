@@ -87,7 +87,9 @@ def load_yaml(text: str, load: Callable[[str], Any] = yaml.safe_load) -> Any:
     if _opens_without_end(text):
         raise ParameterError('it is nested too deeply')
     try:
-        return load(text)
+        value = load(text)
+        _check_end(value, set(), set())
+        return value
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         where = (mark.line + 1, mark.column + 1) if mark else None
@@ -101,6 +103,22 @@ def load_yaml(text: str, load: Callable[[str], Any] = yaml.safe_load) -> Any:
         raise ParameterError('it is nested too deeply') from error
     except ValueError as error:  # a date such as 2026-99-99, an integer of 5000 digits
         raise YamlError(unwrap(str(error))) from error
+
+
+def _check_end(value: Any, around: set[int], seen: set[int]) -> None:
+    """Raise ParameterError: a value contains itself, as ``&a [*a]`` does; also of a tree."""
+    parts = value.value if isinstance(value, yaml.CollectionNode) else value
+    if not isinstance(parts, list | tuple | dict):
+        return
+    if id(value) in around:
+        raise ParameterError('a value contains itself, as &a [*a] does; write it without *')
+    if id(value) in seen:
+        return
+    around.add(id(value))
+    for part in parts.values() if isinstance(parts, dict) else parts:
+        _check_end(part, around, seen)
+    around.remove(id(value))
+    seen.add(id(value))
 
 
 def _opens_without_end(text: str) -> bool:

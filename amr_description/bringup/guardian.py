@@ -155,6 +155,7 @@ def _poll_period(elapsed: float) -> float:
 def _send(pid: int, number: signal.Signals) -> None:
     with contextlib.suppress(ProcessLookupError, PermissionError):
         os.kill(pid, number)
+        os.kill(pid, signal.SIGCONT)  # one that is stopped does not hear of it
 
 
 def remove_unused_segments(folder: str = _SHARED_MEMORY, settled: float = _SETTLED) -> list[str]:

@@ -20,6 +20,7 @@ import contextlib
 import ctypes
 import os
 from pathlib import Path
+import signal
 import subprocess
 import sys
 
@@ -73,6 +74,12 @@ class Lifeline:
         """Let the guardian end what is left; :meth:`is_over` returns whether it is done."""
         os.close(self._writer)
         os.close(self.reader)
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self._guardian.pid, signal.SIGCONT)  # somebody may have stopped it
+
+    def kill_guardian(self) -> None:
+        """End the guardian, which does not come to an end by itself."""
+        self._guardian.kill()
 
     def is_over(self) -> bool:
         """Return whether the guardian has ended, after :meth:`cut`."""

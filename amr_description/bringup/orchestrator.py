@@ -38,6 +38,7 @@ from amr_description.bringup.terminal import TerminalChild
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed
 _NOBODY_READS = 128 + signal.SIGPIPE  # as of a program that wrote into a closed pipe
 
+_GUARDIAN_TIMEOUT = 5.0  # s; it gives up after four
 # (signal, s to wait before the next one; None: as long as it takes)
 _ESCALATION = ((signal.SIGINT, 5.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, None))
 
@@ -330,8 +331,14 @@ class Orchestrator:
         if self._fork_server:
             self._fork_server.end()
         self._lifeline.cut()
+        deadline = time.monotonic() + _GUARDIAN_TIMEOUT
         while not self._lifeline.is_over():
-            await self._event(None)
+            left = deadline - time.monotonic()
+            if left <= 0.0:
+                self._reporter.guardian_killed(_GUARDIAN_TIMEOUT)
+                self._lifeline.kill_guardian()
+                left = _GUARDIAN_TIMEOUT
+            await self._event(left)
             self._lifeline.reap_adopted(self._running_pids())
         for child in self._children.values():
             child.close()

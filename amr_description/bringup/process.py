@@ -74,11 +74,12 @@ class RunningProcess:
         return self._process.poll() is not None
 
     def send(self, number: signal.Signals) -> None:
-        """Signal its whole process group, as Ctrl-C in a terminal does."""
+        """Signal its whole process group, as Ctrl-C in a terminal does; it is to end."""
         if self.returncode is None:
             self.sent = number
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(self.pid, number)
+                os.killpg(self.pid, signal.SIGCONT)  # one that is stopped does not hear of it
 
     def close(self) -> None:
         """Free what it uses, once it has ended."""

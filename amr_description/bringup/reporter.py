@@ -229,6 +229,11 @@ class Reporter:
         """Report that the guardian had ended."""
         self._console.log('WARNING', LAUNCH, 'somebody ended the guardian; started it anew')
 
+    def guardian_killed(self, seconds: float) -> None:
+        """Report that the guardian does not end."""
+        text = f'the guardian has not ended after {seconds:g} s (was it stopped?): killed it'
+        self._console.log('ERROR', LAUNCH, text)
+
     def lending_terminal(self, node: Node) -> None:
         """Report that from here on the screen belongs to the process of a node."""
         log = self._console.log_path(LAUNCH)

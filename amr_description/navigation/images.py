@@ -111,8 +111,9 @@ def _read_netpbm(data: bytes) -> Image:
     count = width * height * samples
     if is_binary:
         kind = np.dtype(np.uint8 if white < 256 else '>u2')
-        has = (len(data) - start) // kind.itemsize
-        values = np.frombuffer(data, kind, min(count, has), start).astype(np.int64)
+        has = min(count, max(0, len(data) - start) // kind.itemsize)
+        pixels = data[start : start + has * kind.itemsize]
+        values = np.frombuffer(pixels, kind).astype(np.int64)
     else:
         try:
             text = b'\n'.join(line.partition(b'#')[0] for line in data[start:].split(b'\n'))

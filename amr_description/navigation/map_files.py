@@ -45,6 +45,7 @@ from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED, UNKNO
 from amr_description.navigation.images import Bytes, Image, pgm, png, read_image
 from amr_description.navigation.pose import Pose
 from amr_description.parameter_files import load_yaml, YamlError
+from amr_description.text import encodable
 
 OCCUPIED_THRESH, FREE_THRESH = 0.65, 0.25
 """Which cells count as occupied and free when a map is saved: the defaults."""
@@ -111,10 +112,11 @@ def load_map(yaml_file: Path) -> OccupancyGrid:
         image = read_image(path.read_bytes())
     except MapDataError as error:
         raise MapDataError(f'{path}: {error}') from error
-    except OSError as error:
+    except (OSError, ValueError) as error:  # ValueError: no file can have such a name
+        reason = getattr(error, 'strerror', None) or 'it is no name of a file'
         raise MapDataError(
-            f"{path}: it cannot be read: {error.strerror}; 'image' in {yaml_file} names it, "
-            'relative to that file'
+            f"{encodable(str(path))}: it cannot be read: {reason}; 'image' in {yaml_file} names "
+            'it, relative to that file'
         ) from error
     return OccupancyGrid(cells_of(image, metadata), metadata.resolution, metadata.origin)
 

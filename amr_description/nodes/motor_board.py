@@ -28,6 +28,7 @@ from typing import Self
 
 from amr_description.errors import AmrError, UsageError
 from amr_description.hardware.simulated_motor_board import SimulatedMotorBoard
+from amr_description.ownership import changed_by_others
 from amr_description.ros.signals import StopRequested, StopRequests
 
 _STEP = 0.005
@@ -132,6 +133,11 @@ def linked(link: Path, port: str) -> Iterator[None]:
     new = link.with_name(f'{link.name}.{os.getpid()}')
     try:
         link.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if reason := changed_by_others(link.parent):
+            raise UsageError(
+                f"cannot make the link '{link}': {reason}, who could put another port in its "
+                'place; give another --link, or remove that folder'
+            )
         new.symlink_to(port)
         new.replace(link)
     except OSError as error:

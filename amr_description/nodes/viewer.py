@@ -110,7 +110,7 @@ def view(args: list[str] | None) -> None:
 
             def start() -> None:
                 server.start()
-                node.get_logger().info(f'The page is at {server.url}')
+                _say_where(server, node.get_logger().info)
 
             try:
                 serve(executor, stop, start)
@@ -121,6 +121,16 @@ def view(args: list[str] | None) -> None:
             stop.leave()
             executor.shutdown()
             node.destroy_node()
+
+
+def _say_where(server: Server, log: Callable[[str], object]) -> None:
+    """Log the address; its secret, if it has one, goes to stdout alone: all read /rosout."""
+    address, _, secret = server.url.partition('?')
+    if secret:
+        print(f'The page is at {server.url}', flush=True)
+        log(f'The page is at {address}, for those who have its secret, which stdout has')
+    else:
+        log(f'The page is at {address}')
 
 
 def _backend(node: Node, executor: SingleThreadedExecutor) -> GraphBackend:
@@ -179,7 +189,7 @@ def view_bag(path: Path, args: Sequence[str]) -> None:
                 )
             with stop.on_stop(stopped.set):
                 server.start()
-                log.info(f'The page is at {server.url}')
+                _say_where(server, log.info)
                 stopped.wait()
             server.stop()
         finally:

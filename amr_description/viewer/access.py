@@ -22,8 +22,11 @@ import hmac
 from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
 import ipaddress
-from urllib.parse import parse_qs, urlsplit
+import re
+from urllib.parse import parse_qs
 
+_HOST = re.compile(r'(?P<name>[A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(:(?P<port>[0-9]{1,5}))?')
+"""A Host header: a name, or an address, and its port; nothing else."""
 TOKEN_PARAMETER = 'token'
 """The query parameter of the URL that holds the token."""
 
@@ -60,6 +63,8 @@ class Access:
                 f'this server is for its own host: the address must begin with localhost or '
                 f'127.0.0.1, not {host!a}',
             )
+        if not host_name(host):
+            return Refusal(HTTPStatus.BAD_REQUEST, f'{host!a} is no name of a host')
         origin = headers.get('Origin')
         if origin is not None and origin.lower() != f'http://{host.lower()}':
             return Refusal(
@@ -103,19 +108,14 @@ def cookie_name(host: str) -> str:
 
     Browsers send a cookie to all ports of a host, so the name includes the port.
     """
-    try:
-        port = urlsplit(f'//{host}').port
-    except ValueError:
-        port = None
-    return f'amr_viewer_token_{port or 80}'
+    match = _HOST.fullmatch(host)
+    return f'amr_viewer_token_{(match and match["port"]) or 80}'
 
 
 def host_name(host: str) -> str:
-    """Return a Host header without its port; '' if it is malformed."""
-    try:
-        return urlsplit(f'//{host}').hostname or ''
-    except ValueError:
-        return ''
+    """Return a Host header without its port, in small letters; '' if it is malformed."""
+    match = _HOST.fullmatch(host)
+    return match['name'].strip('[]').lower() if match else ''
 
 
 def is_loopback(host: str) -> bool:

@@ -28,8 +28,9 @@ MOST_LINES_OF_A_FUNCTION = 60
 
 BASE = {
     'ament_index', 'argument_types', 'clock', 'colors', 'entry', 'errors', 'former_parameters',
-    'forking', 'launch_log', 'launch_variables', 'limited_child', 'parameter_files',
-    'parameters', 'registry', 'ros_arguments', 'stand_ins', 'streams', 'terminal', 'text',
+    'forking', 'launch_log', 'launch_variables', 'limited_child', 'ownership',
+    'parameter_files', 'parameters', 'registry', 'ros_arguments', 'stand_ins', 'streams',
+    'terminal', 'text',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {

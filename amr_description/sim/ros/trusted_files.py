@@ -10,11 +10,10 @@ packages of the ament index, and those that nobody but the simulator's user or r
 
 import os
 from pathlib import Path
-from stat import S_IMODE, S_ISDIR, S_ISREG, S_ISVTX, S_IWGRP, S_IWOTH
+from stat import S_ISREG
 
 from amr_description.ament_index import prefixes
-
-_ROOT = 0
+from amr_description.ownership import changed_by_others
 
 
 def distrust(path: Path) -> str:
@@ -29,21 +28,10 @@ def distrust(path: Path) -> str:
         return ''
     real = Path(os.path.realpath(absolute))
     for each in (real, *real.parents):
-        if reason := _changed_by_others(each):
+        if reason := changed_by_others(each):
             return (
                 f'is not taken from a request: {reason}; what would do: a file of a package, as '
                 'package://PACKAGE/FILE, or the text of the description, as '
                 "'ros2 run amr_description create -file' sends it"
             )
     return ''
-
-
-def _changed_by_others(path: Path) -> str:
-    status = path.stat()
-    mode = S_IMODE(status.st_mode)
-    if status.st_uid not in (_ROOT, os.geteuid()):
-        return f'{path} belongs to the user {status.st_uid}'
-    if S_ISDIR(status.st_mode) and mode & S_ISVTX:
-        return ''  # as /tmp: others cannot replace what is in it
-    is_shared = mode & S_IWGRP and status.st_gid not in (_ROOT, os.getegid())
-    return f'others may write to {path}' if mode & S_IWOTH or is_shared else ''

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The end of a bring-up: nothing is left, however it is ended."""
 
+import contextlib
 import os
 from pathlib import Path
 import re
@@ -224,3 +225,37 @@ def test_a_program_that_has_just_started_ends_quietly(tmp_path):
         assert 'ready in' not in bringup.output
         reason = f'could not be started: {step} begins with #!/nowhere/python3, which is not there'
         assert bringup.lines[-1].endswith(f'step-2 ended with exit code 126: {reason}')
+
+
+def test_a_guardian_that_was_stopped_does_not_keep_it(tmp_path):
+    with Bringup(tmp_path, IN_ORDER) as bringup:
+        up(bringup)
+        pids = filter(str.isdecimal, os.listdir('/proc'))
+        (guardian,) = (int(pid) for pid in pids if is_guardian(pid, bringup))
+        os.kill(guardian, signal.SIGSTOP)
+        begin = time.monotonic()
+        assert bringup.end(signal.SIGINT) == 0
+        assert time.monotonic() - begin < 5.0
+        assert ends(guardian)
+        assert bringup.left() == []
+
+
+def is_guardian(pid, bringup):
+    try:
+        words = Path(f'/proc/{pid}/cmdline').read_bytes().split(b'\0')
+    except OSError:
+        return False
+    return str(bringup.process.pid).encode() in words and any(b'guardian.py' in w for w in words)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_children_that_were_stopped_end_at_once(tmp_path, number):
+    with Bringup(tmp_path, IN_ORDER) as bringup:
+        up(bringup)
+        for pid in bringup.pids().values():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGSTOP)
+        begin = time.monotonic()
+        assert bringup.end(number) == 0
+        assert time.monotonic() - begin < 5.0
+        assert bringup.left() == []

@@ -7,12 +7,14 @@ import os
 from pathlib import Path
 import signal
 import stat
+import tempfile
 import threading
 import time
 
 import pytest
 from support.control_fakes import collect, FakeLog, LEFT, MS, RIGHT, start
 from support.motor_boards import on_motor_board
+from support.needs import need
 from support.running_programs import PATIENCE, Program
 
 from amr_description.control.contracts import ControllerContext, Severity
@@ -103,6 +105,34 @@ def test_replaces_nothing_that_is_not_its_own(tmp_path, make, capsys):
 def test_a_link_that_cannot_be_made_is_reported(capsys):
     assert motor_board.main(['--link', '/proc/board']) == 2
     assert "cannot make the link '/proc/board' (" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('owner', 'mode', 'reason'),
+    [
+        (None, 0o777, 'others may write to'),
+        (65534, 0o777, 'belongs to the user 65534'),
+        (65534, 0o700, 'belongs to the user 65534'),
+    ],
+)
+def test_a_folder_that_another_user_may_change_is_refused(
+    tmp_path, monkeypatch, capsys, owner, mode, reason
+):
+    """He could replace the link, and be the motor board."""
+    need(owner is None or os.geteuid() == 0, 'only root can give folders to another user')
+    monkeypatch.delenv('XDG_RUNTIME_DIR', raising=False)
+    monkeypatch.setattr(tempfile, 'gettempdir', lambda: str(tmp_path))
+    folder = motor_board.default_link().parent
+    folder.mkdir()
+    folder.chmod(mode)
+    if owner is not None:
+        os.chown(folder, owner, owner)
+    assert motor_board.main([]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"motor_board: cannot make the link '{motor_board.default_link()}': ")
+    assert reason in line
+    assert str(folder) in line
+    assert not os.path.lexists(motor_board.default_link())
 
 
 def test_the_port_has_a_name_without_being_given_one(monkeypatch):

@@ -10,13 +10,19 @@ import socket
 from urllib.parse import urlsplit
 
 import pytest
+from rcl_interfaces.msg import Log
+import rclpy
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from support.page import deaf, kept_port, open_socket, Page
 from support.running_programs import PATIENCE, Program
 from websockets.exceptions import InvalidHandshake, InvalidStatus
 
+from amr_description.ros.service_calls import wait_until
 from amr_description.viewer.pages import MOST_PAGES
 
 URL = re.compile(r'The page is at (http://\S+)')
+ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DRIVE = '{"type": "drive", "robot": "/", "linear": 0.1, "angular": 0}'
 
 
@@ -333,6 +339,32 @@ def test_elsewhere_only_who_has_the_address_may():
         with Page(here, additional_headers={'Cookie': cookie}) as page:
             page.wait(lambda: page.last('hello'))
         assert program.end(signal.SIGINT) == 0
+
+
+def test_the_secret_of_the_address_is_on_the_terminal_alone(tmp_path):
+    variables = {'ROS_LOG_DIR': str(tmp_path)}
+    words = ('--ros-args', '-p', 'host:=0.0.0.0', '-p', 'port:=0')
+    rclpy.init(args=[])
+    try:
+        node, said = Node('reader'), []
+        node.create_subscription(Log, '/rosout', lambda message: said.append(message.msg), ROSOUT)
+        with Program.module('viewer', *words, env=variables) as program:
+            parts = urlsplit(url_of(program))
+            secret = parts.query.partition('=')[2]
+            (line,) = wait_until(
+                node,
+                lambda: [each for each in said if f':{parts.port}/' in each] or None,
+                timeout=PATIENCE,
+            )
+            assert program.end(signal.SIGINT) == 0
+        node.destroy_node()
+    finally:
+        rclpy.try_shutdown()
+    assert line.endswith('/, for those who have its secret, which stdout has')
+    assert len(secret) == 24
+    logs = ''.join(path.read_text() for path in tmp_path.rglob('*') if path.is_file())
+    assert 'The page is at' in logs
+    assert secret not in logs + ''.join(said)
 
 
 def test_it_ends_with_pages_and_strangers_connected_and_pages_come_back_to_the_next():

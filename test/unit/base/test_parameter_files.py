@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameter files: their faults in one line, their sections, and how they are written."""
 
+from itertools import pairwise
 import math
 from pathlib import Path
 
 import pytest
+import yaml
 
 from amr_description.errors import ParameterError
 from amr_description.parameter_files import (
@@ -150,3 +152,21 @@ def test_a_key_that_stands_twice_is_one_table_as_rcl_reads_it(tmp_path):
     tables = {each.pattern: each.parameters for each in sections(read_parameter_file(path))}
     assert tables == {'/**/arm': {'a': 1, 'b': 2}, '/**/hand': {'c': 3}}
     assert find_keys(compose(path.read_text()), ('/**', 'hand'))[0] == 5
+
+
+@pytest.mark.parametrize(
+    'text',
+    ['&a [*a]', 'a: &a [1, [*a]]', '&a {b: *a}', 'a: &a {b: [1, {c: *a}]}', '- &a [*a]'],
+)
+@pytest.mark.parametrize('load', [yaml.safe_load, compose])
+def test_a_value_that_contains_itself_is_none(text, load):
+    with pytest.raises(ParameterError, match=r'^a value contains itself, as &a \[\*a\] does'):
+        load_yaml(text, load)
+
+
+def test_a_value_may_stand_in_many_places():
+    assert load_yaml('{a: &a [1], b: [*a, *a], c: *a}') == {'a': [1], 'b': [[1], [1]], 'c': [1]}
+    laughs = 'a: &a [1]\n' + ''.join(
+        f'{new}: &{new} [{", ".join([f"*{old}"] * 9)}]\n' for old, new in pairwise('abcdefghijk')
+    )
+    assert set(load_yaml(laughs)) == set('abcdefghijk')

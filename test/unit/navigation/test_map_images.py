@@ -124,3 +124,10 @@ def test_what_is_no_image_is_said_in_a_line(data, words):
     with pytest.raises(MapDataError, match=words) as error:
         read_image(data)
     assert '\n' not in str(error.value)
+
+
+@pytest.mark.parametrize('head', ['P5 20 10 255', 'P6 20 10 65535', 'P4 20 10', 'P5 2 1 25'])
+@pytest.mark.parametrize('cut', range(4))
+def test_an_image_that_ends_in_its_head_is_said_in_a_line(head, cut):
+    with pytest.raises(MapDataError, match=r'^[^\n]+$'):
+        read_image(head[: len(head) - cut].encode())

@@ -90,3 +90,13 @@ def test_two_viewers_of_a_host_do_not_take_each_others_cookies():
 def test_loopbacks_are_told_from_other_addresses():
     assert [is_loopback(each) for each in ('127.0.0.1', '::1', 'localhost')] == [True] * 3
     assert [is_loopback(each) for each in ('0.0.0.0', '::', '10.0.0.1', 'robot')] == [False] * 4
+
+
+@pytest.mark.parametrize(
+    'host',
+    ['evil@127.0.0.1', '127.0.0.1#evil', '127.0.0.1:abc', '127.0.0.1/..', '127.0.0.1:80:80', '',
+     '127.0.0.1?a', '[::1', '::1', '127.0.0.1:', ' 127.0.0.1', '127.0.0.1\n', 'localhost:123456'],
+)  # fmt: skip
+@pytest.mark.parametrize('access', [Access(), Access(TOKEN)])
+def test_a_host_is_a_name_and_a_port_and_nothing_else(access, host):
+    assert refused(access, f'/?token={TOKEN}', Host=host) is not None
