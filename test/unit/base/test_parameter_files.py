@@ -158,7 +158,7 @@ def test_a_key_that_stands_twice_is_one_table_as_rcl_reads_it(tmp_path):
     'text',
     ['&a [*a]', 'a: &a [1, [*a]]', '&a {b: *a}', 'a: &a {b: [1, {c: *a}]}', '- &a [*a]'],
 )
-@pytest.mark.parametrize('load', [yaml.safe_load, compose])
+@pytest.mark.parametrize('load', [yaml.safe_load, yaml.compose])
 def test_a_value_that_contains_itself_is_none(text, load):
     with pytest.raises(ParameterError, match=r'^a value contains itself, as &a \[\*a\] does'):
         load_yaml(text, load)
