@@ -12,6 +12,7 @@ What ``scripts/release`` makes of this checkout: two wheels, a lock with hashes,
 :mod:`.prefix_files`    what that wheel brings beside modules: commands, executables, hooks
 :mod:`.binaries`        which glibc and libstdc++ the compiled interfaces need
 :mod:`.locks`           the packages of PyPI, each with the hash of its file
+:mod:`.sbom`            the bill of materials, in CycloneDX
 ======================  ===========================================================================
 """
 

@@ -23,6 +23,7 @@ from releasing import (
     package_wheel,
     ReleaseError,
     say,
+    sbom,
     sources,
     versions,
 )
@@ -30,6 +31,7 @@ from releasing.versions import Section
 
 FAILED, INTERRUPTED = 1, 130
 REQUIREMENTS = 'requirements.txt'
+SBOM = 'sbom.cdx.json'
 SUMS = 'SHA256SUMS'
 NOTES = 'RELEASE_NOTES.md'
 _NOTES = """\
@@ -92,8 +94,10 @@ def release(
         interfaces, needs, compilers = _interfaces(checkout, fresh, epoch, environment)
         own += [interfaces, *_from_sources(checkout, fresh, epoch, environment)]
         say('asking the index of pip for the hashes of all that they need ...')
-        text = _requirements(checkout, version, own, environment)
+        pins, hashes = _packages(checkout, own, environment)
+        text = locks.requirements_text(version, pins, hashes, REQUIREMENTS)
         (fresh / REQUIREMENTS).write_text(text, encoding='utf-8')
+        (fresh / SBOM).write_text(sbom.text(version, pins, hashes, epoch), encoding='utf-8')
         notes = _NOTES.format(
             version=version,
             draft=' (draft)' if options.draft else '',
@@ -174,10 +178,10 @@ def _from_sources(
         return [archives.write(archives.read(wheel), folder, epoch) for wheel in built]
 
 
-def _requirements(
-    checkout: Checkout, version: str, own: list[Path], environment: Mapping[str, str]
-) -> str:
-    """Return the text of the file that pip reads."""
+def _packages(
+    checkout: Checkout, own: list[Path], environment: Mapping[str, str]
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return name → version and name → SHA-256 of all that users install, the own wheels first."""
     pins, hashes = {}, {}
     for wheel in own:
         name, number, *_ = wheel.name.split('-')
@@ -188,7 +192,7 @@ def _requirements(
         name: number for name, number in released.items() if locks.canonical(name) not in ours
     }
     hashes |= locks.hashes_from_index(others, checkout.venv, environment)
-    return locks.requirements_text(version, pins | others, hashes, REQUIREMENTS)
+    return pins | others, hashes
 
 
 def _replace(target: Path, fresh: Path) -> None:

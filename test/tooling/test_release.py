@@ -4,6 +4,7 @@
 
 from argparse import Namespace
 from datetime import date
+import json
 import os
 from pathlib import Path
 import re
@@ -15,7 +16,7 @@ import zipfile
 from ament_index_python.packages import get_package_prefix
 from environment.virtual_environment import pinned_versions, WITHOUT_WHEEL
 import pytest
-from releasing import archives, binaries, locks, main, ReleaseError, sources, versions
+from releasing import archives, binaries, locks, main, ReleaseError, sbom, sources, versions
 from releasing.archives import Member
 from support.paths import ROOT
 import yaml
@@ -322,3 +323,24 @@ def test_the_workflow_makes_what_the_script_makes():
     assert 'scripts/release "${GITHUB_REF_NAME#v}"\n' in commands
     for name in (main.SUMS, main.NOTES):
         assert f' {name}' in commands or f'/{name}' in commands
+
+
+def test_the_bill_of_materials_names_every_package_with_its_hash():
+    pins = {'amr_description': '0.2.0', 'PyYAML': '6.0.3', 'ros-rclpy': '7.1.6'}
+    hashes = {name: str(number) * 64 for number, name in enumerate(pins)}
+    text = sbom.text('0.2.0', pins, hashes, 1_700_000_000)
+    bill = json.loads(text)
+    assert (bill['bomFormat'], bill['specVersion']) == ('CycloneDX', '1.5')
+    assert bill['metadata']['component']['version'] == '0.2.0'
+    assert bill['metadata']['timestamp'] == '2023-11-14T22:13:20+00:00'
+    found = {each['purl']: each['hashes'][0]['content'] for each in bill['components']}
+    assert found == {
+        'pkg:pypi/amr-description@0.2.0': '0' * 64,
+        'pkg:pypi/pyyaml@6.0.3': '1' * 64,
+        'pkg:pypi/ros-rclpy@7.1.6': '2' * 64,
+    }
+    refs = {each['bom-ref'] for each in bill['components']} | {'release'}
+    for each in bill['dependencies']:
+        assert {each['ref'], *each['dependsOn']} <= refs
+    assert sbom.text('0.2.0', pins, hashes, 1_700_000_000) == text
+    assert sbom.text('0.2.0', pins | {'PyYAML': '6.0.4'}, hashes, 1_700_000_000) != text
