@@ -49,7 +49,7 @@ from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, SimulationState
-from amr_description.sim.ros.trusted_files import distrust
+from amr_description.sim.ros.trusted_files import distrust, is_folder
 
 FEATURES = (
     SimulatorFeatures.NAMED_POSES,
@@ -333,7 +333,7 @@ def _worlds_in(source: str) -> list[Path]:
         folder = resolve_uri(source)
     except ResourceError as error:
         raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
-    if not folder.is_dir():
+    if not is_folder(folder):
         raise RequestError(
             f"source '{source}' is no folder; package://<package>/<folder>, file:// or a path "
             'will do',

@@ -42,7 +42,7 @@ from amr_description.ros.runtime import run_in_thread
 from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
-from amr_description.sim.ros.trusted_files import distrust
+from amr_description.sim.ros.trusted_files import distrust, is_folder
 from amr_description.sim.spawn_cost import announce, cost_of
 from amr_description.sim.spawning import read_description, SpawnCode
 from amr_description.text import plain_name, unwrap
@@ -138,7 +138,7 @@ class SpawnServices:
                 folder = resolve_uri(source)
             except ResourceError as error:
                 raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
-            if not folder.is_dir():
+            if not is_folder(folder):
                 raise RequestError(
                     f"source '{source}' is no folder; package://<package>/<folder>, file:// or a "
                     'path will do',

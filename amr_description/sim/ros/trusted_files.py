@@ -16,6 +16,14 @@ from amr_description.ament_index import prefixes
 from amr_description.ownership import changed_by_others
 
 
+def is_folder(path: Path) -> bool:
+    """Return whether there is a folder; a name that none can have, of 3,000 letters, is none."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
 def distrust(path: Path) -> str:
     """Return why a request may not name a file, and what would do; '': it may, or is not there."""
     try:

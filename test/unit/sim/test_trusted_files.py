@@ -7,7 +7,7 @@ import os
 import pytest
 from support.needs import need
 
-from amr_description.sim.ros.trusted_files import distrust
+from amr_description.sim.ros.trusted_files import distrust, is_folder
 
 OTHER = 65534
 
@@ -70,3 +70,10 @@ def test_files_of_packages_are_everybodys(file, monkeypatch):
     outside.write_text('')
     outside.chmod(0o666)
     assert distrust(file.parent / '..' / 'outside') != ''
+
+
+@pytest.mark.parametrize('name', ['none', 'x' * 3000, 'a\0b'])
+def test_a_folder_that_cannot_be_is_none(tmp_path, name):
+    assert is_folder(tmp_path)
+    assert not is_folder(tmp_path / name)
+    assert distrust(tmp_path / name) == ''
