@@ -78,6 +78,11 @@ class ViewerSettings:
         'Address to listen on; any other than a loopback makes a token part of the URL',
         read_only=True,
     )
+    token: bool = parameter(
+        False,
+        'Make a token part of the URL on a loopback, too: not every user of this host may use it',
+        read_only=True,
+    )
     port: int = parameter(
         8080,
         'Port to listen on, or the next one that is free; 0: any',
@@ -153,6 +158,7 @@ def _server(
             port=settings.port,
             rate=settings.rate,
             token=secrets.token_urlsafe(18),
+            always_token=settings.token,
             version=_version(),
             domain=domain,
         ),

@@ -67,6 +67,7 @@ class ServerSettings:
         port: port to listen on, or the next free one; 0: any free one.
         rate: most states per second.
         token: required from every page, unless ``host`` is the loopback.
+        always_token: required there, too: of the users of this host, only who has it may drive.
         version: of this package.
         domain: ROS domain id.
     """
@@ -75,13 +76,15 @@ class ServerSettings:
     port: int = 8080
     rate: float = 60.0
     token: str = ''
+    always_token: bool = False
     version: str = ''
     domain: int = 0
 
     @property
     def access(self) -> Access:
         """The rules for requests."""
-        return Access(None if is_loopback(self.host) else self.token)
+        is_needed = self.always_token or not is_loopback(self.host)
+        return Access(self.token if is_needed else None)
 
 
 class Server:

@@ -84,10 +84,10 @@ def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
     Raises AmrError if messages of this class have no header.
     """
     from rclpy.serialization import deserialize_message
-    from rclpy.time import Time
     from std_msgs.msg import Header
 
     from amr_description.ros.message_types import type_name
+    from amr_description.ros.messages import nanoseconds
 
     fields = list(message_class.get_fields_and_field_types().items())
     header = ('header', 'std_msgs/Header')
@@ -96,7 +96,5 @@ def stamp_reader(message_class: Any) -> Callable[[bytes], int]:
             f'msg does not have header: the delay of {type_name(message_class)} is not known'
         )
     if fields[0] == header:
-        return lambda data: Time.from_msg(deserialize_message(data, Header).stamp).nanoseconds
-    return lambda data: (
-        Time.from_msg(deserialize_message(data, message_class).header.stamp).nanoseconds
-    )
+        return lambda data: nanoseconds(deserialize_message(data, Header).stamp)
+    return lambda data: nanoseconds(deserialize_message(data, message_class).header.stamp)

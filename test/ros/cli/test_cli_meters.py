@@ -117,6 +117,8 @@ def test_the_stamp_is_read_from_the_bytes(message_class):
     message = TwistStamped()
     message.header.stamp.sec, message.header.stamp.nanosec = 7, 8
     assert stamp_reader(message_class)(serialize_message(message)) == 7 * SECOND + 8
+    message.header.stamp.sec = -1  # which rclpy's Time raises at
+    assert stamp_reader(message_class)(serialize_message(message)) == 8 - SECOND
 
 
 def test_a_message_without_a_header_is_refused():

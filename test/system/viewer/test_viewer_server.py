@@ -323,8 +323,9 @@ def test_what_cannot_be_served_is_one_line(parameter, text):
         assert re.search(text, line)
 
 
-def test_elsewhere_only_who_has_the_address_may():
-    with viewer('host:=0.0.0.0', 'port:=0') as program:
+@pytest.mark.parametrize('parameter', ['host:=0.0.0.0', 'token:=true'])
+def test_elsewhere_or_if_asked_only_who_has_the_address_may(parameter):
+    with viewer(parameter, 'port:=0') as program:
         parts = urlsplit(url_of(program))
         assert parts.query.startswith('token=')
         here = f'http://127.0.0.1:{parts.port}/'
