@@ -184,14 +184,17 @@ def _guard_made_by(node: Node, name: str, guard_one: Callable[[Any, RcutilsLogge
 def _guard_subscription(subscription: Any, logger: RcutilsLogger) -> None:
     callback, what = subscription.callback, f'the callback of {subscription.topic_name}'
 
-    def called(*taken: Any) -> Any:
+    def called(message: Any) -> Any:
         try:
-            return callback(*taken)
+            return callback(message)
         except Exception as error:
             caught(error, what, logger)
 
     def called_with_info(message: Any, info: Any) -> Any:
-        return called(message, info)
+        try:
+            return callback(message, info)
+        except Exception as error:
+            caught(error, what, logger)
 
     if not inspect.iscoroutinefunction(callback):  # runtime.spin() catches what those raise
         subscription.callback = called_with_info if takes_info(subscription) else called
