@@ -80,7 +80,9 @@ setup(
     cmdclass={'develop': Develop, 'install_scripts': InstallScripts},
     version='0.1.0',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['cli/pkg/licenses/*.txt', 'ros/*.xml', 'viewer/static/**']},
+    package_data={
+        PACKAGE: ['cli/pkg/licenses/*.txt', 'messages/*.txt', 'ros/*.xml', 'viewer/static/**']
+    },
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),

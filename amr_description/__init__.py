@@ -4,6 +4,7 @@
 Drive a physically true ROS 2 robot: model, control, simulation, bring-up and command line.
 
 ======================  ==========================================================================
+``messages/``           messages of ROS as plain data, and their definitions
 ``model/``              the robot description: URDF, xacro, ``<ros2_control>``, meshes, kinematics
 ``control/``            ros2_control without ROS; in ``control/ros/`` its nodes and services
 ``controller_manager/`` a controller manager from a description and parameter files, without ROS

@@ -430,7 +430,8 @@ class SimulationApi(ABC, Generic[RobotType]):
         """
         Send a message to a controller; it has arrived on return and acts from the next step on.
 
-        A header without a stamp gets the simulated time.
+        A dict in the form of the message will do: ``{'twist': {'linear': {'x': 0.5}}}``. A header
+        without a stamp gets the simulated time.
         """
         self.send_all({topic: message})
 

@@ -7,14 +7,15 @@ No other process, and no thread: time passes in the calls that let it pass. What
 it is said in :mod:`amr_description.simulation.api`; ``amr_description.testing`` does the same over
 DDS, with the same bits.
 
-A command is a sample, as controllers use them (:mod:`amr_description.control.samples`)::
+A command is a sample, as controllers use them (:mod:`amr_description.control.samples`), or a dict
+in the form of the message::
 
     sim.send('/diff_drive_controller/cmd_vel', TwistSample(0, linear=0.5, angular=0.0))
+    sim.send('/diff_drive_controller/cmd_vel', {'twist': {'linear': {'x': 0.5}}})
 """
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,7 @@ from amr_description.control.loop import Loop
 from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError, SpawnError
+from amr_description.messages.readers import sample_of
 from amr_description.model.controller_files import declared_controllers
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import ros2_control_host_of
@@ -50,8 +52,6 @@ from amr_description.text import plain_name
 __tracebackhide__ = is_for_the_test
 
 _NODE = '/mujoco_sim'
-_WITHOUT_STAMP = {'geometry_msgs/msg/Twist'}
-"""Messages whose samples have a stamp, as those of the same sample with a header have."""
 
 
 class Simulation(SimulationApi[Robot]):
@@ -206,7 +206,11 @@ class Simulation(SimulationApi[Robot]):
     # --- topics -------------------------------------------------------------------------------
 
     def send_all(self, messages: Mapping[str, Any]) -> None:
-        """Send samples on several topics at the same instant, as by :meth:`send`."""
+        """
+        Send on several topics at the same instant, as by :meth:`send`.
+
+        A message is a sample, or a dict in the form of the message.
+        """
         self._require_running()
         found = {topic: self._inputs_of(topic) for topic in messages}  # before any is sent
         for topic, inputs in found.items():
@@ -227,10 +231,7 @@ class Simulation(SimulationApi[Robot]):
         time, taken = self.world.time, False
         reasons: list[str] = []
         for each in inputs:
-            sample = message
-            has_stamp = each.port.message not in _WITHOUT_STAMP
-            if has_stamp and getattr(sample, 'stamp', None) == 0:
-                sample = replace(sample, stamp=time)
+            sample = sample_of(each.port, message, time)
             reason = each.check(sample, time) if each.check else ''
             if reason:
                 reasons.append(reason)

@@ -35,6 +35,8 @@ from std_srvs.srv import Trigger
 from amr_description.control.ros import loop_publisher
 from amr_description.errors import SimulationError
 from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.message_fields import set_fields
+from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.service_calls import (
@@ -172,13 +174,17 @@ class LockStep:
         Nobody else may publish on these topics: acknowledgements do not name the publisher.
 
         Args:
-            messages: Topic → message.
+            messages: Topic → message, or a dict in the form of the message.
             as_they_are: Whether a header without a stamp stays so.
 
         Raises:
             SimulationError: No controller accepts a message, or a second robot hears it.
         """
         waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
+        waiting = {
+            topic: self._message(topic, each) if isinstance(each, Mapping) else each
+            for topic, each in waiting.items()
+        }
         waiting = {
             topic: self._prepared(topic, message, as_they_are)
             for topic, message in waiting.items()
@@ -204,6 +210,16 @@ class LockStep:
         raise SimulationError(
             f'no controller takes what is sent on {topics}; is the one that hears it active?'
         )
+
+    def _message(self, topic: str, fields: Mapping[str, Any]) -> Any:
+        """Return a message of the type of a topic, of a dict in its form. Raises AmrError."""
+
+        def types() -> list[str]:
+            return [each.topic_type for each in self.node.get_subscriptions_info_by_topic(topic)]
+
+        message = message_type(self.wait(types, f"a subscriber of '{topic}'")[0])()
+        set_fields(message, dict(fields))
+        return message
 
     def forget(self, namespace: str) -> None:
         """Remove the publishers on topics in a namespace, whose subscribers are gone."""

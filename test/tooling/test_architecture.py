@@ -40,6 +40,7 @@ ARROWS = {
     'control': {'model'},
     'controllers': {'control', 'model'},
     'hardware': {'control', 'model'},
+    'messages': {'control'},
     'controller_manager': {'controllers', 'hardware', 'control', 'model'},
     'sim': {'control', 'model', 'navigation'},  # the map of a world
     'viewer': {'model'},
@@ -53,8 +54,16 @@ ARROWS = {
     'ament_copyright': set(),
     'workspace': set(),
     # A simulation without ROS: it may import nothing that has any, see below.
-    'simulation': {'controller_manager', 'controllers', 'hardware', 'sim', 'control', 'model'},
-    'control/ros': {'ros', 'controller_manager', 'control', 'controllers', 'model'},
+    'simulation': {
+        'controller_manager',
+        'controllers',
+        'hardware',
+        'sim',
+        'messages',
+        'control',
+        'model',
+    },  # fmt: skip
+    'control/ros': {'ros', 'messages', 'controller_manager', 'control', 'controllers', 'model'},
     'sim/ros': {
         'bag',  # it records in its own process, without loss
         'bag/ros',
@@ -136,7 +145,8 @@ ROS = {
 }  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
 PURE = {
-    'base', 'model', 'control', 'controllers', 'controller_manager', 'navigation', 'bag', 'doctor',
+    'base', 'model', 'control', 'controllers', 'controller_manager', 'messages', 'navigation',
+    'bag', 'doctor',
 }  # fmt: skip
 # Heavy libraries have one home each.
 HOMES = {

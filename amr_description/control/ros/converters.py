@@ -1,15 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Samples of the shipped controllers ↔ ROS messages, and the table of these converters.
+Samples of the shipped controllers → ROS messages, and the table of these converters.
 
 ``fill_…`` writes into a message that is created once and published many times.
 """
 
 from array import array
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 import math
-from typing import Any, TypeAlias, TypeVar
+from typing import Any
 
 from control_msgs.msg import (
     DynamicJointState,
@@ -17,10 +17,9 @@ from control_msgs.msg import (
     MecanumDriveControllerState,
     SteeringControllerStatus,
 )
-from geometry_msgs.msg import TransformStamped, Twist, TwistStamped
+from geometry_msgs.msg import TransformStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, JointState
-from std_msgs.msg import Bool, Float64, Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
 from amr_description.control import trajectory_samples
@@ -29,11 +28,9 @@ from amr_description.control.ros import dof_converters, sensor_converters
 from amr_description.control.samples import (
     AckermannSample,
     BodyOdometrySample,
-    CommandsSample,
     DynamicJointStateSample,
     DynamicLayout,
     EmptySample,
-    FlagSample,
     Frames,
     ImuConstants,
     ImuSample,
@@ -43,28 +40,8 @@ from amr_description.control.samples import (
     SteeringStateSample,
     TwistSample,
 )
-from amr_description.errors import ControllerError
-from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity, nanoseconds
-
-Function = TypeVar('Function')
-
-
-def twist_sample(message: TwistStamped) -> TwistSample:
-    """Keep the raw stamp (zero stays zero) and the planar part."""
-    return TwistSample(
-        stamp=nanoseconds(message.header.stamp),
-        linear=message.twist.linear.x,
-        angular=message.twist.angular.z,
-        frame_id=message.header.frame_id,
-        lateral=message.twist.linear.y,
-    )
-
-
-def unstamped_twist_sample(message: Twist) -> TwistSample:
-    """Keep the planar part; there is no stamp."""
-    return TwistSample(
-        stamp=0, linear=message.linear.x, angular=message.angular.z, lateral=message.linear.y
-    )
+from amr_description.messages.readers import find, Key
+from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity
 
 
 def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
@@ -138,11 +115,6 @@ def fill_ackermann(sample: AckermannSample, message: Any) -> None:
     message.steering_angle = sample.steering_angle
 
 
-def empty_sample(request: Any) -> EmptySample:
-    """Return a request without fields."""
-    return EmptySample()
-
-
 def fill_nothing(sample: EmptySample, response: Any) -> None:
     """Leave a response without fields as it is."""
 
@@ -189,21 +161,6 @@ def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: DynamicJo
         interfaces.values = array('d', values)
 
 
-def commands_sample(message: Float64MultiArray) -> CommandsSample:
-    """Keep the numbers; a plain list needs no layout."""
-    return CommandsSample(tuple(message.data))
-
-
-def command_sample(message: Float64) -> CommandsSample:
-    """Keep the number."""
-    return CommandsSample((message.data,))
-
-
-def flag_sample(message: Bool) -> FlagSample:
-    """Keep the flag."""
-    return FlagSample(message.data)
-
-
 def fill_imu(sample: ImuSample, message: Imu) -> None:
     """Write what is measured and, the first time, frame and covariances."""
     if message.header.frame_id != sample.constants.frame_id:
@@ -242,20 +199,7 @@ def _fill_imu_constants(constants: ImuConstants, message: Imu) -> None:
     message.linear_acceleration_covariance = constants.linear_acceleration_covariance
 
 
-_Key: TypeAlias = tuple[type | None, str]
-"""Type of a port's samples, and of its messages."""
-
-_READERS: dict[_Key, Callable[[Any], Any]] = {
-    (CommandsSample, 'std_msgs/msg/Float64'): command_sample,
-    (CommandsSample, 'std_msgs/msg/Float64MultiArray'): commands_sample,
-    (EmptySample, 'std_srvs/srv/Empty_Request'): empty_sample,
-    (FlagSample, 'std_msgs/msg/Bool'): flag_sample,
-    (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
-    (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
-    **dof_converters.READERS,
-    **sensor_converters.READERS,
-}
-_WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
+WRITERS: dict[Key, Callable[[Any, Any], None]] = {
     (AckermannSample, 'ackermann_msgs/msg/AckermannDrive'): fill_ackermann,
     (BodyOdometrySample, 'nav_msgs/msg/Odometry'): fill_body_odometry,
     (BodyOdometrySample, 'tf2_msgs/msg/TFMessage'): fill_body_transform,
@@ -273,35 +217,15 @@ _WRITERS: dict[_Key, Callable[[Any, Any], None]] = {
 }
 
 
-def reader_of(port: Port) -> Callable[[Any], Any]:
-    """Return ``(message) -> sample`` of an input. Raises ControllerError: there is none."""
-    if _is_of_trajectories(port):
-        from amr_description.control.ros import trajectory_converters
-
-        return _find(trajectory_converters.READERS, port)
-    return _find(_READERS, port)
-
-
 def writer_of(port: Port) -> Callable[[Any, Any], None]:
     """Return ``(sample, message) -> None`` of an output. Raises ControllerError: likewise."""
     if _is_of_trajectories(port):
         from amr_description.control.ros import trajectory_converters
 
-        return _find(trajectory_converters.WRITERS, port)
-    return _find(_WRITERS, port)
+        return find(trajectory_converters.WRITERS, port)
+    return find(WRITERS, port)
 
 
 def _is_of_trajectories(port: Port) -> bool:
     """Whether its messages are those that only arms need, and that are slow to import."""
     return port.sample is not None and port.sample.__module__ == trajectory_samples.__name__
-
-
-def _find(table: Mapping[_Key, Function], port: Port) -> Function:
-    try:
-        return table[port.sample, port.message]
-    except KeyError:
-        sample = 'no type of sample' if port.sample is None else port.sample.__name__
-        raise ControllerError(
-            f"There is no converter for '{port.name}' ({port.message}, {sample}); name one as "
-            "convert='module:function' of its Port"
-        ) from None

@@ -10,28 +10,18 @@ from collections.abc import Callable
 from typing import Any
 
 from builtin_interfaces.msg import Duration
-from control_msgs.action import GripperCommand, ParallelGripperCommand
-from control_msgs.msg import MultiDOFCommand, MultiDOFStateStamped, PidState, SingleDOFState
+from control_msgs.action import ParallelGripperCommand
+from control_msgs.msg import MultiDOFStateStamped, PidState, SingleDOFState
 from std_srvs.srv import SetBool
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.dof_samples import (
-    DofCommandSample,
     DofStatesSample,
-    GripperGoal,
     GripperState,
     PidStateSample,
-    SetBoolRequest,
     SetBoolResponse,
 )
 from amr_description.ros.messages import fill_stamp
-
-
-def dof_command_sample(message: MultiDOFCommand) -> DofCommandSample:
-    """Keep names and values."""
-    return DofCommandSample(
-        tuple(message.dof_names), tuple(message.values), tuple(message.values_dot)
-    )
 
 
 def fill_dof_states(sample: DofStatesSample, message: MultiDOFStateStamped) -> None:
@@ -63,26 +53,9 @@ def fill_pid_state(sample: PidStateSample, message: PidState) -> None:
     message.i_max, message.i_min, message.output = sample.i_max, sample.i_min, sample.output
 
 
-def switch_request(message: SetBool.Request) -> SetBoolRequest:
-    """Keep what is asked for."""
-    return SetBoolRequest(message.data)
-
-
 def fill_switch_response(sample: SetBoolResponse, message: SetBool.Response) -> None:
     """Write the answer."""
     message.success, message.message = sample.success, sample.message
-
-
-def gripper_goal(message: GripperCommand.Goal) -> GripperGoal:
-    """Keep the position and the greatest effort."""
-    command = message.command
-    return GripperGoal((command.position,), (), (command.max_effort,))
-
-
-def parallel_gripper_goal(message: ParallelGripperCommand.Goal) -> GripperGoal:
-    """Keep all values."""
-    command = message.command
-    return GripperGoal(tuple(command.position), tuple(command.velocity), tuple(command.effort))
 
 
 def fill_gripper_state(sample: GripperState, message: Any) -> None:
@@ -109,13 +82,6 @@ def fill_parallel_gripper_result(
 
 _GRIPPER = 'control_msgs/action/GripperCommand'
 _PARALLEL = 'control_msgs/action/ParallelGripperCommand'
-READERS: dict[tuple[type | None, str], Callable[[Any], Any]] = {
-    (DofCommandSample, 'control_msgs/msg/MultiDOFCommand'): dof_command_sample,
-    (GripperGoal, f'{_GRIPPER}_Goal'): gripper_goal,
-    (GripperGoal, f'{_PARALLEL}_Goal'): parallel_gripper_goal,
-    (SetBoolRequest, 'std_srvs/srv/SetBool_Request'): switch_request,
-}
-"""Functions from a message to a sample, by the types of sample and message."""
 WRITERS: dict[tuple[type | None, str], Callable[[Any, Any], None]] = {
     (DofStatesSample, 'control_msgs/msg/MultiDOFStateStamped'): fill_dof_states,
     (GripperState, f'{_GRIPPER}_Feedback'): fill_gripper_state,

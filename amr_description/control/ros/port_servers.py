@@ -22,6 +22,7 @@ from rclpy.timer import Timer
 from amr_description.control.contracts import Action, Goal, GoalStatus, Port, Service
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
+from amr_description.messages.readers import reader_of
 from amr_description.registry import resolve
 from amr_description.ros.message_types import action_type, service_type
 from amr_description.ros.rclpy_internals import begin_goal, end_goal
@@ -193,15 +194,6 @@ class GoalServer:
                 self._fill_result(result, message)
         finally:
             end_goal(self._server, handle, _EVENTS[status], message)
-
-
-def reader_of(port: Port) -> Callable[[Any], Any]:
-    """Return ``(message) -> sample``. Raises whatever finding it raises."""
-    if port.convert:
-        return resolve(port.convert)
-    from amr_description.control.ros import converters  # its message types are slow to import
-
-    return converters.reader_of(port)
 
 
 def writer_of(port: Port) -> Callable[[Any, Any], None]:

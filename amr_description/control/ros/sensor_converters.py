@@ -24,7 +24,6 @@ from tf2_msgs.msg import TFMessage
 from amr_description.control.sensor_samples import (
     BatteriesSample,
     BatterySample,
-    InterfaceGroup,
     InterfaceGroupsSample,
     MagneticFieldSample,
     NamesSample,
@@ -34,7 +33,7 @@ from amr_description.control.sensor_samples import (
     ValuesSample,
     WrenchSample,
 )
-from amr_description.ros.messages import fill_stamp, nanoseconds
+from amr_description.ros.messages import fill_stamp
 
 
 def fill_wrench(sample: WrenchSample, message: WrenchStamped) -> None:
@@ -133,17 +132,6 @@ def fill_interface_groups(
     ]
 
 
-def interface_groups_sample(message: DynamicInterfaceGroupValues) -> InterfaceGroupsSample:
-    """Keep names and values. Raises ValueError: they are not equally many groups."""
-    return InterfaceGroupsSample(
-        nanoseconds(message.header.stamp),
-        tuple(
-            InterfaceGroup(name, tuple(below.interface_names), tuple(below.values))
-            for name, below in zip(message.interface_groups, message.interface_values, strict=True)
-        ),
-    )
-
-
 def _fill_header(sample: Any, message: Any) -> None:
     fill_stamp(sample.stamp, message.header.stamp)
     message.header.frame_id = sample.frame_id
@@ -158,8 +146,6 @@ def _fill_quaternion(values: tuple[float, ...], quaternion: Any) -> None:
 
 
 _GROUPS = (InterfaceGroupsSample, 'control_msgs/msg/DynamicInterfaceGroupValues')
-READERS: dict[tuple[type | None, str], Callable[[Any], Any]] = {_GROUPS: interface_groups_sample}
-"""Functions from a message to a sample, by the types of sample and message."""
 WRITERS: dict[tuple[type | None, str], Callable[[Any, Any], None]] = {
     _GROUPS: fill_interface_groups,
     (BatteriesSample, 'control_msgs/msg/BatteryStateArray'): fill_batteries,

@@ -9,50 +9,21 @@ Samples of joint trajectories ↔ ROS messages.
 from array import array
 from typing import Any
 
-from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import (
-    JointTolerance as JointToleranceMessage,
     JointTrajectoryControllerState,
-    SpeedScalingFactor,
 )
 from control_msgs.srv import QueryTrajectoryState
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectoryPoint
 
-from amr_description.clock import NANOSECONDS
 from amr_description.control.trajectory_samples import (
     FollowTrajectoryFeedback,
-    FollowTrajectoryGoal,
     FollowTrajectoryResult,
-    JointTolerance,
-    QueryStateRequest,
     QueryStateResponse,
-    SpeedScalingSample,
     TrajectoryPoint,
-    TrajectorySample,
     TrajectoryStateSample,
 )
-from amr_description.ros.messages import fill_stamp, nanoseconds
-
-
-def trajectory_sample(message: JointTrajectory) -> TrajectorySample:
-    """Keep all of it but the frame."""
-    return TrajectorySample(
-        nanoseconds(message.header.stamp),
-        tuple(message.joint_names),
-        tuple(map(_point, message.points)),
-        tuple(_duration(point.time_from_start) for point in message.points),
-    )
-
-
-def follow_goal(message: FollowJointTrajectory.Goal) -> FollowTrajectoryGoal:
-    """Keep what is about single joints; multi-DOF joints are not followed, as in the original."""
-    return FollowTrajectoryGoal(
-        trajectory_sample(message.trajectory),
-        tuple(map(_tolerance, message.path_tolerance)),
-        tuple(map(_tolerance, message.goal_tolerance)),
-        _duration(message.goal_time_tolerance) / NANOSECONDS,
-    )
+from amr_description.ros.messages import fill_stamp
 
 
 def fill_follow_feedback(
@@ -88,16 +59,6 @@ def fill_trajectory_state(
     message.speed_scaling_factor = sample.speed_scaling_factor
 
 
-def speed_scaling(message: SpeedScalingFactor) -> SpeedScalingSample:
-    """Keep the factor."""
-    return SpeedScalingSample(message.factor)
-
-
-def query_request(message: QueryTrajectoryState.Request) -> QueryStateRequest:
-    """Keep the time."""
-    return QueryStateRequest(nanoseconds(message.time))
-
-
 def fill_query_response(
     sample: QueryStateResponse, message: QueryTrajectoryState.Response
 ) -> None:
@@ -110,38 +71,12 @@ def fill_query_response(
     message.acceleration = array('d', sample.point.accelerations)
 
 
-def _point(message: JointTrajectoryPoint) -> TrajectoryPoint:
-    return TrajectoryPoint(
-        tuple(message.positions),
-        tuple(message.velocities),
-        tuple(message.accelerations),
-        tuple(message.effort),
-    )
-
-
 def _fill_point(point: TrajectoryPoint, message: JointTrajectoryPoint) -> None:
     message.positions = array('d', point.positions)
     message.velocities = array('d', point.velocities)
     message.accelerations = array('d', point.accelerations)
     message.effort = array('d', point.effort)
 
-
-def _duration(duration: Duration) -> int:
-    """Return ns."""
-    return duration.sec * NANOSECONDS + duration.nanosec
-
-
-def _tolerance(message: JointToleranceMessage) -> JointTolerance:
-    return JointTolerance(message.name, message.position, message.velocity, message.acceleration)
-
-
-READERS: dict[tuple[type | None, str], Any] = {
-    (TrajectorySample, 'trajectory_msgs/msg/JointTrajectory'): trajectory_sample,
-    (SpeedScalingSample, 'control_msgs/msg/SpeedScalingFactor'): speed_scaling,
-    (FollowTrajectoryGoal, 'control_msgs/action/FollowJointTrajectory_Goal'): follow_goal,
-    (QueryStateRequest, 'control_msgs/srv/QueryTrajectoryState_Request'): query_request,
-}
-"""(type of sample, type of message) → converter, as in ``converters.py``."""
 
 WRITERS: dict[tuple[type | None, str], Any] = {
     (

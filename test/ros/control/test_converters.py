@@ -34,6 +34,7 @@ from amr_description.control.samples import (
 )
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
+from amr_description.messages import readers
 from amr_description.parameters import build
 from amr_description.ros.message_types import message_type
 
@@ -113,7 +114,7 @@ def test_other_interfaces_of_the_same_joints_are_written_again():
 
 def test_commands_are_the_plain_list_of_numbers():
     message = Float64MultiArray(data=[1.0, -2.5])
-    assert converters.commands_sample(sent(message)) == CommandsSample((1.0, -2.5))
+    assert readers.commands_sample(sent(message)) == CommandsSample((1.0, -2.5))
 
 
 def test_an_imu_message_arrives_as_it_was():
@@ -142,7 +143,7 @@ def test_an_imu_message_arrives_as_it_was():
 def test_a_twist_and_odometry_have_their_part_to_the_left():
     message = TwistStamped()
     message.twist.linear.x, message.twist.linear.y, message.twist.angular.z = 1.0, 2.0, 3.0
-    sample = converters.twist_sample(sent(message))
+    sample = readers.twist_sample(sent(message))
     assert sample == TwistSample(0, 1.0, 3.0, '', 2.0)
     again = TwistStamped()
     converters.fill_twist(sample, again)
@@ -228,7 +229,7 @@ def test_the_converters_of_every_port_exist(controller, values):
     made = found(ControllerContext('made', FakeLog()))
     made.configure(build(found.parameters_type, values))
     functions = [
-        *((converters.reader_of(each.port), each.port) for each in made.inputs()),
+        *((readers.reader_of(each.port), each.port) for each in made.inputs()),
         *((converters.writer_of(each.port), each.port) for each in made.outputs()),
     ]
     assert functions
@@ -240,7 +241,7 @@ def test_the_converters_of_every_port_exist(controller, values):
 @pytest.mark.parametrize(
     ('find', 'port', 'sample'),
     [
-        (converters.reader_of, Port('~/in', 'sensor_msgs/msg/Imu', sample=ImuSample), 'ImuSample'),
+        (readers.reader_of, Port('~/in', 'sensor_msgs/msg/Imu', sample=ImuSample), 'ImuSample'),
         (converters.writer_of, Port('~/out', 'sensor_msgs/msg/Imu'), 'no type of sample'),
     ],
 )
@@ -266,4 +267,4 @@ def test_any_number_of_joints_goes(count):
 def test_a_plain_twist_has_no_stamp_and_keeps_the_planar_part():
     message = Twist()
     message.linear.x, message.linear.y, message.angular.z = 0.5, 9.0, -0.25
-    assert converters.unstamped_twist_sample(message) == TwistSample(0, 0.5, -0.25, lateral=9.0)
+    assert readers.unstamped_twist_sample(message) == TwistSample(0, 0.5, -0.25, lateral=9.0)

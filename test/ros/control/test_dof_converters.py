@@ -22,6 +22,7 @@ from amr_description.control.dof_samples import (
 )
 from amr_description.control.ros import converters
 from amr_description.controllers import CONTROLLERS
+from amr_description.messages import readers
 from amr_description.parameters import build
 
 STAMP = 3_000_000_007
@@ -63,9 +64,9 @@ def test_what_is_inside_of_a_pid():
 def test_commands_and_switches():
     port = Port('it', 'control_msgs/msg/MultiDOFCommand', sample=DofCommandSample)
     message = MultiDOFCommand(dof_names=['a'], values=[1.0], values_dot=[2.0])
-    assert converters.reader_of(port)(message) == DofCommandSample(('a',), (1.0,), (2.0,))
+    assert readers.reader_of(port)(message) == DofCommandSample(('a',), (1.0,), (2.0,))
     port = Port('it', 'std_srvs/srv/SetBool_Request', sample=SetBoolRequest)
-    assert converters.reader_of(port)(SetBool.Request(data=True)) == SetBoolRequest(True)
+    assert readers.reader_of(port)(SetBool.Request(data=True)) == SetBoolRequest(True)
     answer = arrive(
         SetBoolResponse(True, 'on'), SetBool.Response(), 'std_srvs/srv/SetBool_Response'
     )
@@ -93,7 +94,7 @@ def test_goals_and_results_of_grippers(kind, expected):
         goal.command.effort = [2.0]
     else:
         goal.command.position, goal.command.max_effort = 0.5, 2.0
-    read = converters.reader_of(Port('it', f'{port.action}_Goal', sample=port.goal))
+    read = readers.reader_of(Port('it', f'{port.action}_Goal', sample=port.goal))
     assert read(goal) == expected
     for part in ('Feedback', 'Result'):
         message = arrive(STATE, getattr(action, part)(), f'{port.action}_{part}')

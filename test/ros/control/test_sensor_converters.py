@@ -13,6 +13,7 @@ from amr_description.control.ros import converters
 from amr_description.control.sensor_samples import InterfaceGroup
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.gpio_command_controller import GpioCommandController
+from amr_description.messages import readers
 from amr_description.parameters import build
 from amr_description.ros.message_types import message_type
 
@@ -111,7 +112,7 @@ def test_gpio_commands_keep_their_names():
     controller = GpioCommandController(ControllerContext('it', FakeLog()))
     table = {'gpios': ['s'], 'command_interfaces.s.interfaces': ['a', 'b']}
     controller.configure(build(GpioCommandController.parameters_type, table))
-    read = converters.reader_of(controller.inputs()[0].port)
+    read = readers.reader_of(controller.inputs()[0].port)
     message = DynamicInterfaceGroupValues(
         interface_groups=['s'],
         interface_values=[InterfaceValue(interface_names=['b', 'a'], values=[1.0, 2.0])],

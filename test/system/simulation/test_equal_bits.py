@@ -15,12 +15,10 @@ import warnings
 from fixtures.sim.plugin_robot import cart, classic_drive
 from hypothesis import given, strategies as st
 import pytest
-from std_msgs.msg import Float64MultiArray
 from support.examples import examples
 from support.paths import ROOT
 
 from amr_description import Simulation
-from amr_description.control.samples import CommandsSample
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.testing.simulation import Simulation as SimulationOverDds
@@ -124,18 +122,12 @@ def driven(sim, case, course):
     found = [read(sim)]
     for linear, angular, seconds, stop in course:
         if case.positions:
-            sim.send(case.positions, positions(sim, (linear, angular)))
+            sim.send(case.positions, {'data': [linear, angular]})
             sim.run(seconds)
         else:
             sim.drive(linear, angular, seconds=seconds, stop=stop)
         found.append(read(sim))
     return sim.time, found
-
-
-def positions(sim, values):
-    if isinstance(sim, Simulation):
-        return CommandsSample(values)
-    return Float64MultiArray(data=values)
 
 
 @given(course=drives)
