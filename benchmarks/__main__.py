@@ -94,6 +94,12 @@ class Bench:
         heard = 'robot_state_publisher and a page'
         return Figures(values, self._speed_text(heard, speed, profile))
 
+    def engine(self) -> Figures:
+        """The simulation without ROS, in a process of its own."""
+        from benchmarks.engine import engine_figures
+
+        return engine_figures(self._seconds)
+
     def latency(self) -> Figures:
         """Commands to the wheels, and cycles of 1 kHz, in real time."""
         from benchmarks.latency import latency_figures

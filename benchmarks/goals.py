@@ -43,6 +43,11 @@ _AT_LEAST, _AT_MOST = Direction.AT_LEAST, Direction.AT_MOST
 GOALS = (
     Goal('stack', 'full stack ÷ mj_step alone, heard', '', _AT_LEAST, 0.42, 'speed'),
     Goal('clock', 'full stack ÷ mj_step alone, /clock heard', '', _AT_LEAST, 0.52, 'speed'),
+    Goal('engine', 'without ROS ÷ mj_step alone', '', _AT_LEAST, 0.72, 'engine', False),
+    Goal('engine fleet', '…, ten robots', '', _AT_LEAST, 0.5, 'engine', False),
+    Goal('engine start', '…, first step', 's', _AT_MOST, 0.5, 'engine', False),
+    Goal('engine reset', '…, a reset', 'ms', _AT_MOST, 2.0, 'engine', False),
+    Goal('engine memory', '…, memory', 'MB', _AT_MOST, 120.0, 'engine', False),
     Goal('beside', 'a cycle besides physics, heard', 'µs', _AT_MOST, 50.0, 'speed', False),
     Goal('warm', 'warm start to both controllers', 's', _AT_MOST, 1.8, 'stack'),
     Goal('cold', 'cold set-up to ready', 's', _AT_MOST, 90.0, 'cold'),

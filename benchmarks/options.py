@@ -9,6 +9,7 @@ from benchmarks.goals import GOALS
 
 PARTS = (
     'speed',
+    'engine',
     'latency',
     'stack',
     'page',
@@ -23,7 +24,7 @@ PARTS = (
     'profile',
 )
 """In the order in which they run."""
-_QUICK = ('speed', 'latency', 'stack', 'robot_state_publisher')
+_QUICK = ('speed', 'engine', 'latency', 'stack', 'robot_state_publisher')
 _ON_REQUEST = {
     'cold': 'it takes minutes: --only cold, or --check',
     'profile': 'it has no goal: --profile',

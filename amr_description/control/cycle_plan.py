@@ -26,6 +26,7 @@ from amr_description.control.resource_manager import (
     ResourceManager,
     WriteFailure,
 )
+from amr_description.control.statistics import unmeasured
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +49,7 @@ class CyclePlan:
         """Plan with what is available and active now; :func:`plan_of` says whether one may."""
         components = list(resources.components.values())
         self._resources = resources
+        self._is_measured = resources.stopwatch is not unmeasured
         self._members: list[LoadedComponent | LoadedController] = [*components, *controllers]
         self._states = [each.state for each in self._members]
         self._reads = [each for each in components if each.is_available]
@@ -69,7 +71,7 @@ class CyclePlan:
         Returns:
             Where it has ended because a plugin raised; None: all was called.
         """
-        stopwatch = self._resources.stopwatch
+        stopwatch, is_measured = self._resources.stopwatch, self._is_measured
         before = stopwatch()
         for component in self._reads:
             component.last_read = time
@@ -77,18 +79,20 @@ class CyclePlan:
                 component.component.read(time, period)
             except Exception as error:  # a third-party component may raise anything
                 return ReadFailure(component, error)
-            after = stopwatch()
-            component.read_statistic.add(after - before, period)
-            before = after
+            if is_measured:
+                after = stopwatch()
+                component.read_statistic.add(after - before, period)
+                before = after
         for controller in self._updates:
             controller.last_update = time
             try:
                 controller.controller.update(time, period)
             except Exception as error:
                 return UpdateFailure(controller, error)
-            after = stopwatch()
-            controller.statistic.add(after - before, period)
-            before = after
+            if is_measured:
+                after = stopwatch()
+                controller.statistic.add(after - before, period)
+                before = after
         self._resources.enforce_limits(period)
         before = stopwatch()
         for component in self._writes:
@@ -97,9 +101,10 @@ class CyclePlan:
                 component.component.write(time, period)
             except Exception as error:
                 return WriteFailure(component, error)
-            after = stopwatch()
-            component.write_statistic.add(after - before, period)
-            before = after
+            if is_measured:
+                after = stopwatch()
+                component.write_statistic.add(after - before, period)
+                before = after
         return None
 
 

@@ -196,6 +196,24 @@ class Loop:
             return
         self._step_request = StepRequest(self.time + period, done)
 
+    def step_through(self, period: int) -> int:
+        """
+        While paused, step a period before this returns, on the control thread; see :meth:`step`.
+
+        Returns:
+            The missing part of the period, ns.
+
+        Raises:
+            SimulationError: as :meth:`step`.
+        """
+        missing: list[int] = []
+        self.step(period, missing.append)
+        while self._step_request is not None:
+            self._run_calls()
+            if self._step_request is not None:
+                self._continue_step(self._step_request)
+        return missing[0]
+
     def resume(self) -> None:
         """Let time go on after a pause."""
         self._cancel_step()

@@ -8,7 +8,7 @@ from functools import partial
 from amr_description.control.contracts import Log, Severity, World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.statistics import Stopwatch, zero_clock
+from amr_description.control.statistics import Stopwatch, unmeasured
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.in_simulator import class_in_simulator
@@ -25,7 +25,7 @@ def bring_up(
     world: World | None,
     period: int,
     simulates_mocks: bool = False,
-    stopwatch: Stopwatch = zero_clock,
+    stopwatch: Stopwatch = unmeasured,
 ) -> ControllerManager:
     """
     Make components and manager, and start the hardware; on the control thread.
@@ -38,7 +38,7 @@ def bring_up(
         world: As simulated components see it; None: the hardware is real.
         period: Between two cycles, ns.
         simulates_mocks: Mock hardware is simulated, if there is a world.
-        stopwatch: Measures how long everything takes.
+        stopwatch: Measures how long everything takes; by default nothing does.
 
     Returns:
         The manager, for the control loop.

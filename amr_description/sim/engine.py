@@ -95,7 +95,7 @@ class Engine:
         self._solver = FleetSolver(self.rollers)
         self.model: mujoco.MjModel = spec.compile()
         self.data = mujoco.MjData(self.model)
-        self._solver.bind(self.model)
+        self._bind()
 
     @property
     def time(self) -> int:
@@ -131,13 +131,20 @@ class Engine:
 
     def step(self, count: int) -> None:
         """Advance by ``count`` physics steps, in one call into C if nothing is done between."""
-        if self._solver:
-            self._solver.step(self.model, self.data, count)
-        elif self.rollers:
-            self.rollers.step(self.model, self.data, count)
-        else:
+        if self._is_plain:
             mujoco.mj_step(self.model, self.data, count)
+        elif self._solver:
+            self._solver.step(self.model, self.data, count)
+        else:
+            self.rollers.step(self.model, self.data, count)
         self._steps += count
+
+    def _bind(self) -> None:
+        """Take the present model, which was compiled anew."""
+        self.rollers.bind(self.model)
+        self._solver.bind(self.model)
+        self._is_plain = not (self._solver or self.rollers)
+        """Whether nothing is done between two steps."""
 
     def load(self, spec: mujoco.MjSpec, timestep: int) -> None:
         """
@@ -150,8 +157,7 @@ class Engine:
         self.spec, self.model, self.data = spec, model, mujoco.MjData(model)
         self._timestep, self._steps, self._time_at_step_0 = timestep, 0, 0
         self._kinematics_at = None
-        self.rollers.bind(model)
-        self._solver.bind(model)
+        self._bind()
         self.generation += 1
 
     def recompile(self) -> None:
@@ -163,8 +169,7 @@ class Engine:
         # The warnings were logged when the world and each robot were compiled by themselves.
         with compiler_warnings(null_log, ''):
             self.model, self.data = self.spec.recompile(self.model, self.data)
-        self.rollers.bind(self.model)
-        self._solver.bind(self.model)
+        self._bind()
         self.generation += 1
 
     def reset(self) -> None:

@@ -180,17 +180,14 @@ class Simulation(SimulationApi[Robot]):
     def _advance(self, count: int) -> None:
         self._require_running()
         loop, step = self._loop, self.world.timestep
-        missing: list[int] = []
         try:
-            loop.step(count * step, missing.append)
-            while loop.is_stepping:
-                loop.run_once()
+            missing = loop.step_through(count * step)
         except BaseException:  # Ctrl-C; what comes next begins a step of its own
             loop.pause()
             raise
-        if missing[0]:
+        if missing:
             raise SimulationError(
-                f'{-(-missing[0] // step)} of {count} steps were not made: the simulation was '
+                f'{-(-missing // step)} of {count} steps were not made: the simulation was '
                 'played, paused, reset or ended meanwhile'
             )
 

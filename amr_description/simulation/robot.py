@@ -54,6 +54,8 @@ class Robot(RobotApi):
         self.manager = manager
         """Its controllers can be loaded, switched and so on."""
         self._view, self._topics, self._sensors = view, topics, sensors
+        self._odometry: tuple[Any, Any] = (None, None)
+        """The newest that was read: its sample, and what it says."""
         self._outputs: Mapping[str, Newest] = manager.outputs if manager else {}
 
     def twist(self, linear: float, angular: float) -> TwistSample:
@@ -74,7 +76,10 @@ class Robot(RobotApi):
     @property
     def odometry(self) -> Motion:
         """The last odometry of the drive, with its own stamp (:attr:`Motion.time`)."""
-        return _motion_of(self._newest(self._topics.odometry, 'drive'))
+        sample = self._newest(self._topics.odometry, 'drive')
+        if sample is not self._odometry[0]:  # it is published at half the rate of most loops
+            self._odometry = (sample, _motion_of(sample))
+        return self._odometry[1]
 
     @property
     def joints(self) -> dict[str, Joint]:
@@ -134,16 +139,16 @@ class Robot(RobotApi):
         self._sensors.close()
 
     def _newest(self, topic: str, controller: str) -> Any:
+        sample = self.sample(topic)
+        if sample is not None:
+            return sample
         if not topic:
             raise SimulationError(f"'{self.name}' began without an active {controller}")
         if not self._view.time:
             raise SimulationError(
                 f'nothing is on {topic} at time 0; let time pass: step(), run() or drive()'
             )
-        sample = self.sample(topic)
-        if sample is None:
-            raise SimulationError(f"nothing was published on '{topic}'; is its controller active?")
-        return sample
+        raise SimulationError(f"nothing was published on '{topic}'; is its controller active?")
 
 
 def _motion_of(sample: OdometrySample | BodyOdometrySample) -> Motion:

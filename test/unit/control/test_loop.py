@@ -448,3 +448,31 @@ def test_a_reset_while_paused_stays_paused_and_the_clock_goes_back(outside, loop
     assert not loop.is_running
     assert outside.times('publish')[-1] == 0
     assert outside.times('tick') == [0, 10 * MS, 20 * MS]
+
+
+def standing():
+    """A loop that stands, and its outside."""
+    outside = Outside()
+    loop = Loop(outside, outside, outside, outside, clock_period=10 * MS)
+    loop.managers.append(Ticking(100, outside.diary))
+    loop.pause()
+    return outside, loop
+
+
+@pytest.mark.parametrize('period', [0, 1, 7, 10, 25])
+def test_a_period_is_stepped_through_as_cycle_by_cycle(period):
+    """In one call, for who is on the control thread himself."""
+    (one, at_once), (other, by_cycles) = standing(), standing()
+    missing = []
+    by_cycles.step(period * MS, missing.append)
+    while by_cycles.is_stepping:
+        by_cycles.run_once()
+    assert at_once.step_through(period * MS) == missing[0] == 0
+    assert one.diary == other.diary
+
+
+def test_a_call_may_end_a_period_that_is_stepped_through():
+    outside, loop = standing()
+    outside.queue.append(lambda: outside.queue.append(loop.pause))
+    assert loop.step_through(25 * MS) == 15 * MS
+    assert not loop.is_stepping
