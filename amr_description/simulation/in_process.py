@@ -111,9 +111,11 @@ class Simulation(SimulationApi[Robot]):
         log_translation(given, translation, inside, self._log)
         topics = Topics()
         if manager is not None:
-            controllers = translation.controllers
-            run_at_once(start_controllers(manager.requests, controllers, inside, self._log))
-            topics = self._start_controllers(manager, translation)
+            try:
+                topics = self._start_controllers(manager, translation)
+            except BaseException:
+                self._managed.remove(given)
+                raise
         self._log(Severity.INFO, f"Spawned '{given}'")
         view = self.world.robot(given)
         sensors = RobotSensors(self._instruments, view, translation.sensors, inside)
@@ -147,7 +149,9 @@ class Simulation(SimulationApi[Robot]):
         )
 
     def _start_controllers(self, manager: LocalManager, translation: GazeboTranslation) -> Topics:
-        """Spawn the controllers; return the topics of the active ones."""
+        """Start what stands for plugins, then the controllers; return the topics of all."""
+        plugins, inside = translation.controllers, manager.namespace
+        run_at_once(start_controllers(manager.requests, plugins, inside, self._log))
         name = manager.name.rpartition('/')[2]
         declared = declared_controllers(self._files, manager.namespace, name)
         log = self._lines.log_of('/spawner')
@@ -194,9 +198,7 @@ class Simulation(SimulationApi[Robot]):
     def reset(self) -> None:
         """Reset: time 0, robots where they were spawned, odometry at zero."""
         self._require_running()
-        self.world.reset()
-        self.world.time = 0
-        self._loop.reset()
+        self._managed.reset()
         for robot in self._robots.values():
             robot.forget()
 

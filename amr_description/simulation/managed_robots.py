@@ -111,6 +111,24 @@ class ManagedRobots:
                 )
         self._world.remove(name)
 
+    def reset(self, *, time: bool = True, state: bool = True) -> None:
+        """
+        Reset; active controllers stay active.
+
+        Args:
+            time: Set the time to 0.
+            state: Put every robot where it was spawned, at rest, with odometry at zero.
+        """
+        world, loop = self._world, self._loop
+        now = world.time
+        if state:
+            world.reset()
+        world.time = 0 if time else now
+        if state:
+            loop.reset()
+        else:
+            loop.set_clock()
+
     def _check_namespace(self, namespace: str) -> None:
         """Raise SpawnError: a second controller manager would have the same name."""
         if any(namespace == each for each, _ in self._managers.values()):

@@ -256,6 +256,10 @@ class EntityManager:
             count += 1
         return count
 
+    def reset(self, *, time: bool, state: bool) -> None:
+        """Reset world and managers; on the control thread. See :meth:`ManagedRobots.reset`."""
+        self._robots.reset(time=time, state=state)
+
     def destroy(self) -> None:
         """Destroy all nodes, after the control thread has stopped."""
         threads = [each.thread for each in self._entities.values() if each.thread is not None]

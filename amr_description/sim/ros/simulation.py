@@ -312,17 +312,9 @@ class Simulation:
         """
 
         def reset() -> None:
-            world, loop = self.world, self.loop_thread.loop
-            now = world.time
             self._ground_truth.restart()
             self.recording.restart()
-            if state:
-                world.reset()
-            world.time = 0 if time else now
-            if state:
-                loop.reset()
-            else:
-                loop.set_clock()
+            self.entities.reset(time=time, state=state)
 
         await self.loop_thread.submit(reset)
 
