@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from amr_description.errors import SimulationError
 from amr_description.model.frames import rpy_from_quaternion, Transform, Vector
+from amr_description.text import did_you_mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,17 @@ class Joint:
     position: float
     velocity: float
     effort: float
+
+
+class Joints(dict[str, Joint]):
+    """Joint → its state; a name that is not there is told those that are."""
+
+    def __missing__(self, name: str) -> Joint:
+        """Raise SimulationError."""
+        raise SimulationError(
+            f"no joint '{name}' has a state{did_you_mean(name, [*self])}; there are: "
+            + ', '.join(self)
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)

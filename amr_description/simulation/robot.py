@@ -20,7 +20,7 @@ from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.api import RobotApi
 from amr_description.simulation.local_manager import LocalManager
 from amr_description.simulation.plain_controllers import Newest
-from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
+from amr_description.simulation.readings import Contact, Image, Joint, Joints, Motion, Points, Scan
 from amr_description.simulation.sensors import RobotSensors
 from amr_description.simulation.spawned_controllers import BROADCASTER, Topics
 from amr_description.simulation.tracebacks import is_for_the_test
@@ -86,7 +86,7 @@ class Robot(RobotApi):
         """The last state of each joint, by name, from the JointStateBroadcaster."""
         sample: JointStateSample = self._newest(self._topics.joints, BROADCASTER)
         rows = zip(sample.name, sample.position, sample.velocity, sample.effort, strict=True)
-        return {name: Joint(*values) for name, *values in rows}
+        return Joints({name: Joint(*values) for name, *values in rows})
 
     def scan_of(self, topic: str) -> Scan:
         """Return what the lidar with a topic sees at this instant, whatever its rate."""

@@ -8,7 +8,7 @@ from typing import Any
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import conjugate, rotate
 from amr_description.ros.messages import nanoseconds, transform_of, vector_of
-from amr_description.simulation.readings import Joint, Motion
+from amr_description.simulation.readings import Joint, Joints, Motion
 
 
 def motion_of_entity(state: Any) -> Motion:
@@ -33,9 +33,9 @@ def motion_of_odometry(message: Any) -> Motion:
     )
 
 
-def joints_of(message: Any) -> dict[str, Joint]:
+def joints_of(message: Any) -> Joints:
     """Read a sensor_msgs/msg/JointState: joint → state; NaN for missing values."""
     columns = (message.position, message.velocity, message.effort)
     padded = ([*column] or [math.nan] * len(message.name) for column in columns)
     rows = zip(message.name, *padded, strict=True)
-    return {name: Joint(*values) for name, *values in rows}
+    return Joints({name: Joint(*values) for name, *values in rows})

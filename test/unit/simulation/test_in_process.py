@@ -251,3 +251,14 @@ def test_a_robot_whose_controllers_cannot_be_spawned_is_removed_again(tmp_path):
         assert list(sim.robots) == ['one']
         assert sim.world.names == ('one',)
         sim.run(0.1)
+
+
+def test_a_joint_that_has_no_state_is_told_those_that_have(sim):
+    sim.step()
+    assert sim.joints[WHEEL].position == pytest.approx(0.0, abs=0.01)
+    with pytest.raises(
+        SimulationError, match=r"no joint 'joint_wheel_front_lef' has a state; did"
+    ):
+        _ = sim.joints['joint_wheel_front_lef']
+    assert 'nothing' not in sim.joints
+    assert sim.joints.get('nothing') is None
