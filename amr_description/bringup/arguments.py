@@ -125,12 +125,17 @@ def as_typed(value: object) -> str:
 
 
 def parse(words: Sequence[str]) -> dict[str, str]:
-    """Split words ``name:=value``; the last one of a name wins. Raises UsageError."""
+    """
+    Split words ``name:=value``; the last one of a name wins.
+
+    Raises:
+        BringupError: one is none of these; the exit code is 1, as that of the original.
+    """
     given = {}
     for word in words:
         name, separator, value = word.partition(':=')
         if not separator or not name:
-            raise UsageError(
+            raise BringupError(
                 f"malformed launch argument '{word}', expected format '<name>:=<value>'"
             )
         given[name] = value

@@ -62,7 +62,7 @@ def test_the_last_of_a_name_wins():
 
 @pytest.mark.parametrize('word', ['gui', ':=x', 'gui=1', ''])
 def test_a_malformed_word_is_refused_in_the_words_of_launch(word):
-    with pytest.raises(UsageError, match=f"malformed launch argument '{word}', expected format"):
+    with pytest.raises(BringupError, match=f"malformed launch argument '{word}', expected format"):
         parse([word])
 
 

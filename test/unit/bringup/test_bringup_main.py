@@ -25,7 +25,7 @@ def toys(tmp_path, monkeypatch):
         (['simulaton'], 2, "unknown stack 'simulaton'; did you mean 'simulation'? known: display"),
         (['no_such.py'], 2, "no stack: there is no file 'no_such.py'"),
         ([CHATTY, 'txt:=x'], 2, "unknown argument 'txt'; did you mean 'text'? known: text, unf"),
-        ([CHATTY, 'text'], 2, "malformed launch argument 'text', expected format"),
+        ([CHATTY, 'text'], 1, "malformed launch argument 'text', expected format"),
         ([CHATTY, 'text:=x', 'code:=y'], 2, "code:=y: 'y' is not an integer"),
         ([CHATTY], 1, "missing required argument 'text'"),
         ([str(STACKS / 'stubborn.py'), 'role:=x'], 1, 'Argument "role" provided value "x" is not'),
