@@ -36,8 +36,10 @@ __tracebackhide__ = is_for_the_test
 STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""
 
-DOMAINS = range(1, 101)
-"""ROS domains whose ports are below the ephemeral ports of the system; 0 is the default one."""
+_SELDOM = range(215, 233)
+"""ROS domains that people seldom choose: above the ephemeral ports of Linux."""
+DOMAINS = (*_SELDOM, *range(1, 101))
+"""In this order; the ports of the others are below the ephemeral ones; 0 is the default one."""
 LOCKS = Path('/tmp')
 """The folder of the lock files, one for each domain; TMPDIR makes no other domains of them."""
 WAYS_TO_OTHERS = (
@@ -186,9 +188,8 @@ def take_domain() -> tuple[int, int]:
         SimulationError: None is free, or the system does not show who is there.
     """
     forbidden = os.environ.get(DOMAIN)
-    start = os.getpid() % len(DOMAINS)
     occupied = 0
-    for domain in (*DOMAINS[start:], *DOMAINS[:start]):
+    for domain in _candidates():
         if str(domain) == forbidden:
             continue
         lock = _lock(domain)
@@ -200,9 +201,18 @@ def take_domain() -> tuple[int, int]:
         os.close(lock)
         occupied += 1
     raise SimulationError(
-        f'all ROS domains from {DOMAINS[0]} to {DOMAINS[-1]} are taken: {occupied} by programs on '
-        f'this host, {len(DOMAINS) - occupied} by other tests or this shell; end some of them'
+        f'all {len(DOMAINS)} ROS domains that tests use are taken: {occupied} by programs on this '
+        f'host, {len(DOMAINS) - occupied} by other tests or this shell; end some of them'
     )
+
+
+def _candidates() -> list[int]:
+    """Return the domains as they are tried; tests that begin at once begin at different ones."""
+    found: list[int] = []
+    for group in (DOMAINS[: len(_SELDOM)], DOMAINS[len(_SELDOM) :]):
+        start = os.getpid() % max(len(group), 1)
+        found += (*group[start:], *group[:start])
+    return found
 
 
 def _lock(domain: int) -> int | None:

@@ -74,7 +74,7 @@ def test_the_next_file_has_another_domain(pytestconfig, monkeypatch):
 
 def test_a_domain_given_back_can_be_taken_but_not_by_whose_shell_has_it(taken, monkeypatch):
     monkeypatch.setattr(program, 'DOMAINS', taken[:1])
-    with pytest.raises(SimulationError, match='all ROS domains from'):
+    with pytest.raises(SimulationError, match='all 1 ROS domains that tests use are taken'):
         program.take_domain()
     monkeypatch.setattr(program, 'DOMAINS', [free := max(taken) + 1_000])
     domain, lock = program.take_domain()
@@ -82,7 +82,7 @@ def test_a_domain_given_back_can_be_taken_but_not_by_whose_shell_has_it(taken, m
     (program.LOCKS / f'ros_domain_{free}.lock').unlink()
     assert domain == free
     monkeypatch.setenv('ROS_DOMAIN_ID', str(free))
-    with pytest.raises(SimulationError, match='all ROS domains from'):
+    with pytest.raises(SimulationError, match='all 1 ROS domains that tests use are taken'):
         program.take_domain()
 
 
