@@ -161,12 +161,13 @@ def test_a_robot_elsewhere_that_has_this_host_as_a_peer_does_not_see_a_test():
     need(not machines.missing(), f'{machines.missing()}')
     if refused := machines.refusal():
         pytest.skip(refused)
-    peer = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET', 'ROS_STATIC_PEERS': '192.168.7.1'}
+    open_network = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET'}
+    peer = {**open_network, 'ROS_STATIC_PEERS': '192.168.7.1'}
     with machines.one_network() as (here, elsewhere), node_on(here, 'of_a_test') as test:
         domain = test.expect(r'domain (\d+)\n')[1]
         with (
             node_on(elsewhere, 'robot', domain, **peer) as robot,
-            node_on(here, 'on_this_host', domain) as other,
+            node_on(here, 'on_this_host', domain, **open_network) as other,
         ):
             for program in (robot, other):
                 program.expect(f'domain {domain}\n')
