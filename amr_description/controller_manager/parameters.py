@@ -103,8 +103,10 @@ class ManagerParameters:
 
         Raises ParameterError: a file cannot be read.
         """
-        for path in entry.params_file:
-            read_parameter_file(Path(path))  # rcl would not say where it is wrong
+        for path in map(Path, entry.params_file):
+            if path.exists() and not path.is_file():  # a request may name a pipe without end
+                raise ParameterError(f"parameter file '{path}': it is no regular file")
+            read_parameter_file(path)  # rcl would not say where it is wrong
         uses_sim_time = self.store.value('use_sim_time')
         return [
             *inherited(self._arguments),

@@ -31,9 +31,11 @@ Where the original loses something, this does not:
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+import errno
 import math
 from pathlib import Path
 import re
+from stat import S_ISDIR, S_ISREG
 from typing import Any
 
 import numpy as np
@@ -109,6 +111,7 @@ def load_map(yaml_file: Path) -> OccupancyGrid:
     metadata = load_metadata(yaml_file)
     path = metadata.image
     try:
+        _require_regular(path)
         image = read_image(path.read_bytes())
     except MapDataError as error:
         raise MapDataError(f'{path}: {error}') from error
@@ -121,10 +124,18 @@ def load_map(yaml_file: Path) -> OccupancyGrid:
     return OccupancyGrid(cells_of(image, metadata), metadata.resolution, metadata.origin)
 
 
+def _require_regular(path: Path) -> None:
+    """Raise OSError: a pipe or a device may have no end, and a request may name one."""
+    mode = path.stat().st_mode
+    if not S_ISREG(mode) and not S_ISDIR(mode):  # of a folder the reader says it
+        raise OSError(errno.EINVAL, 'it is no regular file')
+
+
 def load_metadata(yaml_file: Path) -> MapMetadata:
     """Read the ``.yaml`` file of a map. Raises MapError."""
     path = Path(yaml_file).expanduser()
     try:
+        _require_regular(path)
         text = path.read_text(encoding='utf-8')
     except (FileNotFoundError, NotADirectoryError):
         raise MapError(

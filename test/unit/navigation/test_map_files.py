@@ -3,6 +3,7 @@
 """Maps in files: the values of nav2_map_server's map_io.cpp, and what is wrong in a file."""
 
 import math
+import os
 
 from hypothesis import given, strategies as st
 import numpy as np
@@ -288,3 +289,18 @@ def test_broken_files_are_read_or_refused_in_a_line(tmp_path_factory, seed):
         assert str(folder) in str(error)
     else:
         assert set(np.unique(grid.cells).tolist()) <= {-1, 0, 100}
+
+
+@pytest.mark.parametrize('name', ['map.yaml', 'map.pgm'])
+def test_a_pipe_or_a_device_holds_nobody_up(tmp_path, name):
+    (tmp_path / 'map.yaml').write_text(YAML)
+    (tmp_path / name).unlink(missing_ok=True)
+    os.mkfifo(tmp_path / name)
+    with pytest.raises(MapError, match=f'{name}: it cannot be read: it is no regular file'):
+        load_map(tmp_path / 'map.yaml')
+
+
+def test_an_image_whose_name_no_file_can_have_is_said(tmp_path):
+    (tmp_path / 'map.yaml').write_text(YAML.replace('map.pgm', '"\\uD800.pgm"'))
+    with pytest.raises(MapError, match='it cannot be read: it is no name of a file|surrogate'):
+        load_map(tmp_path / 'map.yaml')
