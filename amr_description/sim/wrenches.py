@@ -16,6 +16,9 @@ import numpy as np
 from amr_description.model.frames import Vector
 from amr_description.sim.engine import Engine
 
+MOST = 1e5
+"""N, N m, m/s, rad/s: with more physics loses the state of a robot that weighs some kilograms."""
+
 BodyOf: TypeAlias = Callable[[str, str], int]
 """Returns MuJoCo's body of (robot, link) at present; raises SimulationError."""
 

@@ -51,6 +51,7 @@ from amr_description.sim.ros.posix_regex import PosixRegex
 from amr_description.sim.ros.service_replies import create_services
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import checked_pose
+from amr_description.sim.wrenches import MOST
 
 FEATURES = (
     SimulatorFeatures.ENTITY_TAGS,
@@ -123,9 +124,10 @@ class EntityServices:
         except SpawnError as error:
             raise RequestError(str(error), response.INVALID_POSE) from error
         linear, angular = vector_of(state.twist.linear), vector_of(state.twist.angular)
-        if not all(map(math.isfinite, (*linear, *angular))):
+        if not all(abs(each) <= MOST for each in (*linear, *angular)):
             raise RequestError(
-                f'the twist is {linear} m/s, {angular} rad/s; finite numbers are needed',
+                f'the twist is {linear} m/s, {angular} rad/s; finite numbers are needed, up to '
+                f'{MOST:g}',
                 Result.RESULT_OPERATION_FAILED,
             )
         world = self._world

@@ -15,7 +15,6 @@ for its root link, or a link, ``<robot>::<link>`` (LINK); a reset and a deletion
 
 from collections.abc import Callable
 from functools import partial
-import math
 
 from rclpy.node import Node
 from ros_gz_interfaces.msg import Entity, EntityWrench
@@ -24,7 +23,7 @@ from amr_description.control.contracts import Severity
 from amr_description.errors import SimulationError
 from amr_description.ros.messages import vector_of
 from amr_description.sim.ros.simulation import Simulation
-from amr_description.sim.wrenches import WorldWrench
+from amr_description.sim.wrenches import MOST, WorldWrench
 
 _SEPARATOR = '::'
 _DEPTH = 50
@@ -49,8 +48,11 @@ class WrenchTopics:
         apply = wrenches.hold if lasts else wrenches.push
 
         def call() -> None:
-            if not all(map(math.isfinite, (*force, *torque))):
-                raise SimulationError(f'{force} N, {torque} N m; finite numbers are needed')
+            if not all(abs(each) <= MOST for each in (*force, *torque)):
+                raise SimulationError(
+                    f'{force} N, {torque} N m; finite numbers are needed, up to {MOST:g}: physics '
+                    'would lose the state of the robot'
+                )
             robot, link = self._target(message.entity)
             root = self._world.robot(robot).description.root.name
             apply(robot, root if link is None else link, WorldWrench(force, torque))

@@ -158,6 +158,8 @@ def test_a_link_is_pushed_by_topics(sim):
         ('ball', Entity.LINK, 1.0, 'a link is named <robot>::<link>'),
         ('ball', Entity.JOINT, 1.0, 'entity of type 7; MODEL (2), <robot>, and LINK (3)'),
         ('ball', Entity.MODEL, math.nan, 'finite numbers are needed'),
+        ('ball', Entity.MODEL, 1e308, 'finite numbers are needed, up to 100000'),
+        ('ball', Entity.MODEL, -1.1e5, 'finite numbers are needed, up to 100000'),
     ],
 )
 def test_what_cannot_be_pushed_is_a_line_of_the_log(sim, name, kind, force, text):
