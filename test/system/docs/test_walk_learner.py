@@ -136,7 +136,7 @@ def test_the_tutorials_own_package(home, tutorials_package):
         assert shell.run('check_urdf').startswith('robot name is: hers\n')
         printed = shell.run('ros2 launch amr_description display.launch.py')
         assert 'in place of joint_state_publisher_gui, rviz2: the page' in printed
-        assert '<robot name=\\"hers\\">' in printed
+        assert re.search(r'<robot name=.{0,2}hers', printed)
         shell.start('ros2 launch amr_description gazebo')
         shell.see('overlays this one: its files come first')
         shell.see('not installed, so those of amr_description are started: robot_state_publisher')
