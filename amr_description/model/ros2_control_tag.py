@@ -128,7 +128,7 @@ def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) ->
 
 def _read_type(element: etree._Element, reader: ElementReader) -> HardwareType:
     text = element.get('type', '')
-    if text in HardwareType:
+    if text in set(HardwareType):
         return HardwareType(text)
     reader.error(
         element,

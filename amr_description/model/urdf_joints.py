@@ -110,7 +110,7 @@ def _read_end(element: etree._Element, tag: str) -> str:
 
 def _read_type(element: etree._Element, name: str, reader: ElementReader) -> JointType:
     text = element.get('type')
-    if text in JointType:
+    if text in set(JointType):
         return JointType(text)
     known = ', '.join(JointType)
     if text is None:
