@@ -91,7 +91,7 @@ setup(
     # ROS packages are named in package.xml only: their names on PyPI differ (ros-rclpy, ...).
     install_requires=['setuptools'],
     extras_require={'test': ['pytest']},
-    python_requires='==3.12.*',  # Jazzy's; the ROS wheels of PyPI are for no other
+    python_requires='>=3.11,<3.15',  # those that scripts/requirements.lock is for
     zip_safe=False,
     maintainer='The amr_description authors',
     maintainer_email='maintainers@users.noreply.github.com',

@@ -219,7 +219,7 @@ def link_jobs(
             LinkJob(output, objects, calls, run_path, library.link_as_cpp, loads, in_workspace)
         )
     suffix = sysconfig.get_config_var('EXT_SUFFIX')
-    to_lib = '$ORIGIN/../../..'  # from lib/python3.12/site-packages/<package>
+    to_lib = '$ORIGIN/../../..'  # from lib/python3.x/site-packages/<package>
     for extension in EXTENSIONS:
         parts = {'rosidl_generator_py', 'rosidl_generator_c', 'rosidl_typesupport_c', extension}
         calls = (*(f'{package.name}__{other}' for other in sorted(parts)), *EXTENSION_CALLS)

@@ -47,14 +47,18 @@ class Toolchain:
 
 def python_headers() -> Path:
     """Return the folder of ``Python.h``; raise InterfaceBuildError when there is none."""
-    folder = Path(sysconfig.get_path('include'))
-    if not (folder / 'Python.h').is_file():
-        raise InterfaceBuildError(
-            f'{folder}/Python.h not found: this Python ({sys.executable}) came without its C'
-            ' headers; install them (Debian, Ubuntu: python3.12-dev; Fedora: python3.12-devel) or'
-            ' use another Python (uv python install 3.12)'
-        )
-    return folder
+    of_system = Path(sysconfig.get_path('include'))
+    # scripts/setup puts them there where the system has none.
+    of_environment = Path(sys.prefix, 'include', of_system.name)
+    for folder in (of_system, of_environment):
+        if (folder / 'Python.h').is_file():
+            return folder
+    python = 'python{}.{}'.format(*sys.version_info)
+    raise InterfaceBuildError(
+        f'{of_system}/Python.h not found: this Python ({sys.executable}) came without its C'
+        f' headers; install them (Debian, Ubuntu: {python}-dev; Fedora: {python}-devel) or use'
+        ' another Python (uv python install 3.12)'
+    )
 
 
 def candidates(environment: dict[str, str]) -> Iterator[Toolchain]:

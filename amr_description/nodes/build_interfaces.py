@@ -6,7 +6,7 @@
 ::
 
     ros2 run amr_description build_interfaces my_msgs
-    python -m pip install my_msgs-0.0.0-cp312-cp312-linux_x86_64.whl
+    python -m pip install my_msgs-0.0.0-*.whl
 
 Their types have the hashes (RIHS01) that any ROS 2 Jazzy gives them.
 

@@ -3,15 +3,19 @@
 """
 The pip underlay: make the environment that this checkout runs in, and keep it up to date.
 
-Python 3.12's standard library only: nothing is installed yet when this runs. ``scripts/setup``
+The standard library only: nothing is installed yet when this runs. ``scripts/setup``
 finds the Python and starts :mod:`.main`, which goes through the parts in this order:
 
 ============================  =====================================================================
 :mod:`.host`                  can the wheels run here; which foreign ROS or conda is in the way
+:mod:`.preflight`             what would keep a set-up from its end: rights, disk, home, network
 :mod:`.checkout`              where everything is; the lock that keeps two set-ups apart
 :mod:`.stamps`                what was made of what: content hashes, written last
+:mod:`.locks`                 which version of each package, for each Python, and its hashes
+:mod:`.debian`                what a bare Debian or Ubuntu lacks, fetched by apt without root
 :mod:`.virtual_environment`   ``.venv`` with exactly the versions of ``requirements.lock``
 :mod:`.interface_wheel`       ``interfaces/`` as a wheel, cached for the user by content
+:mod:`.commands`              the programs that do the work, how far they are, why they failed
 :mod:`.launchers`             what ``.venv`` gets beside packages: ros2, check_urdf, prefix hooks
 :mod:`.workspace`             ``colcon build --symlink-install``
 ============================  =====================================================================

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""``python3.12 -ES scripts/environment``: what ``scripts/setup`` runs once it has a Python."""
+"""``python3 -ES scripts/environment``: what ``scripts/setup`` runs once it has a Python."""
 
 from pathlib import Path
 import sys

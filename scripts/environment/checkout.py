@@ -25,9 +25,19 @@ class Checkout(NamedTuple):
         return self.root / '.venv'
 
     @property
+    def scripts(self) -> Path:
+        """The folder of this module's, and of the lock files."""
+        return self.root / 'scripts'
+
+    @property
     def requirements(self) -> Path:
-        """The lock file."""
-        return self.root / 'scripts' / 'requirements.lock'
+        """The lock file of ``.venv``."""
+        return self.scripts / 'requirements.lock'
+
+    @property
+    def tools(self) -> Path:
+        """The lock file of what is fetched where it is needed."""
+        return self.scripts / 'tools.lock'
 
     @property
     def interfaces(self) -> Path:

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run the programs that do the work: quietly as long as they succeed, but for signs of life."""
 
-from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 import os
@@ -10,12 +9,13 @@ from pathlib import Path
 import threading
 from typing import TYPE_CHECKING
 
-from . import progress, SetupError
+from . import causes, progress, SetupError
 
 if TYPE_CHECKING:  # imported where there is something to do, which is seldom
     import subprocess
 
 SHOWN_LINES = 15
+"""Of a program that failed, where no first cause is known."""
 HEARTBEAT = 10.0
 """s between two lines about a program that goes on."""
 WIDTH = 70
@@ -31,19 +31,28 @@ def run(
     environment: Mapping[str, str],
     what: str,
     folder: Path | None = None,
-    hint: str = '',
+    count: Callable[[Sequence[str]], str] | None = None,
 ) -> None:
     """
-    Run ``command`` in ``folder``; raise :class:`SetupError` with its last lines when it fails.
+    Run ``command`` in ``folder``; while it runs, say every ten seconds how far it is.
 
-    While it runs, its last line is shown every ten seconds. The checkout's lock is handed on
-    (``close_fds``), see :func:`.checkout.one_at_a_time`.
+    The checkout's lock is handed on (``close_fds``), see :func:`.checkout.one_at_a_time`.
+
+    Args:
+        command: the program and its arguments.
+        environment: its variables.
+        what: it does, for messages.
+        folder: where it runs.
+        count: of its lines so far, how far it is; None, or where it returns '': its last line.
+
+    Raises:
+        SetupError: it failed: the first cause, or its last lines.
     """
     import subprocess
 
     if _stopping.is_set():
         raise SetupError(f'{what}: not begun')
-    lines: deque[str] = deque(maxlen=SHOWN_LINES)
+    lines: list[str] = []
     with subprocess.Popen(
         list(map(os.fspath, command)),
         env={**environment, 'PYTHONUNBUFFERED': '1'},
@@ -65,15 +74,17 @@ def run(
             while reader.is_alive():
                 reader.join(HEARTBEAT)
                 if reader.is_alive():
-                    progress(f'  {what}: {_last(lines)}')
+                    progress(f'  {what}: {(count and count(lines)) or _last(lines)}')
         except BaseException:  # Ctrl-C
             process.kill()
             raise
         finally:
             _running.discard(process)
     if process.returncode != 0:
-        tail = '\n'.join(f'  | {line.rstrip()}' for line in lines)
-        raise SetupError(f'{what} failed (exit code {process.returncode}){hint}:\n{tail}')
+        if cause := causes.first_cause(lines):
+            raise SetupError(f'{what} failed: {cause}')
+        tail = '\n'.join(f'  | {line.rstrip()}' for line in lines[-SHOWN_LINES:])
+        raise SetupError(f'{what} failed (exit code {process.returncode}):\n{tail}')
 
 
 @contextmanager
@@ -100,10 +111,9 @@ def beside(work: Callable[[], object]) -> Iterator[None]:
             raise
 
 
-def _last(lines: deque[str]) -> str:
+def _last(lines: Sequence[str]) -> str:
     """Return the last line that says something, as far as it fits."""
-    with suppress(RuntimeError):  # one was added meanwhile
-        for line in reversed(lines):
-            if text := ' '.join(line.split()):
-                return text if len(text) <= WIDTH else f'{text[: WIDTH - 3]}...'
+    for line in reversed(lines):
+        if text := ' '.join(line.split()):
+            return text if len(text) <= WIDTH else f'{text[: WIDTH - 3]}...'
     return 'at work'

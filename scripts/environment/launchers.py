@@ -38,11 +38,14 @@ import shlex
 
 from . import stamps
 from .checkout import Checkout, PACKAGE
+from .virtual_environment import site_packages
 
 CMAKE_PACKAGES = Path(__file__).with_name('cmake')
 COLCONS_CMAKE = Path('libexec/amr_description/cmake')
 EXECUTABLE = ('bin', COLCONS_CMAKE.parent.name)  # the names of their folders
 COMMANDS = ('ros2', 'check_urdf')
+HOME = Path('.setup/home')
+"""Where the environment is to lie; ``scripts/activate`` sees by it that it was moved."""
 
 COMMAND = """\
 #!/bin/sh
@@ -148,7 +151,7 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE="${{ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOS
 
 def library_path(venv: Path, home: Path) -> str:
     """Return the LD_LIBRARY_PATH of the ROS wheels in ``venv``, once it has moved to ``home``."""
-    bundled = sorted(venv.glob('lib/python3.12/site-packages/ros_*.libs'))
+    bundled = sorted(site_packages(venv).glob('ros_*.libs'))
     return os.pathsep.join(
         str(home / folder.relative_to(venv)) for folder in (venv / 'lib', *bundled)
     )
@@ -184,13 +187,13 @@ def files(venv: Path, home: Path, checkout: Checkout) -> dict[Path, str]:
     local_setup = LOCAL_SETUP.format(
         venv=shlex.quote(str(home)), bin=shlex.quote(str(home / 'bin'))
     )
-    site_packages = Path('lib/python3.12/site-packages')
-    packages = venv / site_packages
-    cmake = shlex.quote(str(home / site_packages / 'cmake/data/bin/cmake'))
+    packages = site_packages(venv)
+    cmake = shlex.quote(str(site_packages(home) / 'cmake/data/bin/cmake'))
     colcons_cmake = CMAKE.format(
         python=python, code=CMAKE_CODE, build=shlex.quote(str(build)), cmake=cmake
     )
     return {
+        venv / HOME: f'{home}\n',
         venv / COLCONS_CMAKE: colcons_cmake,
         **{
             venv / 'bin' / command: COMMAND.format(

@@ -10,9 +10,11 @@ import sys
 import time
 
 from . import (
+    debian,
     host,
     interface_wheel,
     launchers,
+    preflight,
     say,
     SetupError,
     stamps,
@@ -23,6 +25,8 @@ from .checkout import cache_folder, Checkout, one_at_a_time, stamp
 from .commands import beside
 
 FAILED, INTERRUPTED = 1, 130
+INTERFACES = '--interfaces'
+"""The argument by which ``scripts/release`` asks for the wheel of another Python."""
 
 
 def set_up(checkout: Checkout, environment: Mapping[str, str]) -> bool:
@@ -41,6 +45,9 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
     )
     stale = not stamp(checkout.venv, 'environment').holds(key) or not _starts(checkout.venv)
     if stale:
+        preflight.check_space(checkout.root)
+        preflight.check_home(environment)
+        preflight.check_hosts(environment)
         say('this takes 1 to 4 minutes, once; a line every ten seconds says where it is')
         fresh = checkout.venv.with_name('.venv.new')
         _make_environment(checkout, fresh, environment)
@@ -55,17 +62,32 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
 
 def _make_environment(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
     """Install all packages, and build the interfaces meanwhile, which takes longer."""
-    sources, lock = checkout.interfaces, checkout.requirements
-    cache = cache_folder(environment)
+    lock, cache = checkout.requirements, cache_folder(environment)
     first = interface_wheel.NEEDED_TO_BUILD
-    virtual_environment.create(venv, lock, environment, first)
-    with beside(lambda: interface_wheel.built(sources, lock, venv, cache, environment)):
+    lacks, extras = debian.lacking(environment), debian.Extras(cache)
+    extras.fetch(lacks, environment)
+    pip = extras.pip() if 'pip' in lacks else None
+    virtual_environment.create(venv, lock, environment, first, pip)
+    if 'Python.h' in lacks:
+        extras.copy_headers(venv / 'include' / debian.VERSION)
+    with beside(lambda: interface_wheel.built(checkout, venv, cache, environment)):
         virtual_environment.complete(venv, lock, environment)
+
+
+def interfaces_of_this_python(checkout: Checkout, environment: Mapping[str, str]) -> Path:
+    """Return the wheel of the interfaces, in the cache or built there by a ``.venv`` apart."""
+    import tempfile
+
+    cache = cache_folder(environment)
+    with tempfile.TemporaryDirectory(prefix='amr-release-') as scratch:
+        venv, first = Path(scratch, '.venv'), interface_wheel.NEEDED_TO_BUILD
+        virtual_environment.create(venv, checkout.requirements, environment, first)
+        return interface_wheel.built(checkout, venv, cache, environment)
 
 
 def update_interfaces(checkout: Checkout, environment: Mapping[str, str]) -> bool:
     """Install the interface packages if their sources, or what they are built with, changed."""
-    key = interface_wheel.key(checkout.interfaces, checkout.requirements)
+    key = interface_wheel.key(checkout)
     if stamp(checkout.venv, 'interfaces').holds(key):
         return False
     _install_interfaces(checkout, checkout.venv, environment)
@@ -73,11 +95,10 @@ def update_interfaces(checkout: Checkout, environment: Mapping[str, str]) -> boo
 
 
 def _install_interfaces(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
-    sources, lock = checkout.interfaces, checkout.requirements
     installed = stamp(venv, 'interfaces')
     installed.remove()
-    interface_wheel.install(sources, lock, venv, cache_folder(environment), environment)
-    installed.write(interface_wheel.key(sources, lock))
+    interface_wheel.install(checkout, venv, cache_folder(environment), environment)
+    installed.write(interface_wheel.key(checkout))
 
 
 def update_workspace(checkout: Checkout, environment: Mapping[str, str]) -> bool:
@@ -100,7 +121,7 @@ def _starts(venv: Path) -> bool:
 
 def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> int:
     """Run ``scripts/setup``; return its exit code."""
-    if arguments:
+    if arguments not in ([], [INTERFACES]):
         say(f'takes no arguments, got {" ".join(arguments)}; it makes .venv, install/ and build/')
         return 2
     start = time.monotonic()
@@ -108,8 +129,13 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
     try:
         host.check_host()
         checkout.check()
+        preflight.check_writable(checkout)
+        variables = debian.with_certificates(host.clean_environment(environment))
+        if arguments:
+            print(interfaces_of_this_python(checkout, variables))
+            return 0
         with one_at_a_time(checkout):
-            busy = set_up(checkout, host.clean_environment(environment))
+            busy = set_up(checkout, variables)
     except (SetupError, OSError) as error:  # the latter: disk full, not ours to write
         say(f'error: {error}')
         return FAILED

@@ -10,16 +10,15 @@ into a few text files of ``bin/``, which :func:`relocate` corrects.
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-import re
 import shutil
 import sys
 
-from . import progress, SetupError
+from . import locks, progress
 from .checkout import PACKAGE
 from .commands import beside, run
+from .locks import Pin
 
 WITHOUT_WHEEL = ('empy', 'flake8-quotes')
-REQUIREMENT = re.compile(r'^([A-Za-z0-9._-]+)==(\S+)')
 
 
 def python_of(venv: Path) -> Path:
@@ -27,21 +26,19 @@ def python_of(venv: Path) -> Path:
     return venv / 'bin' / 'python'
 
 
-def pinned_versions(lock: str) -> dict[str, str]:
-    """Return name → version of a lock file's text; raise SetupError on a line that pins none."""
-    pins = {}
-    for number, line in enumerate(lock.splitlines(), 1):
-        text = line.partition('#')[0].strip()
-        if not text:
-            continue
-        match = REQUIREMENT.match(text)
-        if not match or match[1] in pins:
-            raise SetupError(f'requirements.lock:{number}: want one NAME==VERSION, got {text!r}')
-        pins[match[1]] = match[2]
-    return pins
+def site_packages(venv: Path) -> Path:
+    """Return where the packages of an environment of this Python are."""
+    major, minor = sys.version_info[:2]
+    return venv / 'lib' / f'python{major}.{minor}' / 'site-packages'
 
 
-def create(venv: Path, lock: Path, environment: Mapping[str, str], first: tuple[str, ...]) -> None:
+def create(
+    venv: Path,
+    lock: Path,
+    environment: Mapping[str, str],
+    first: tuple[str, ...],
+    pip: Path | None = None,
+) -> None:
     """
     Make the environment ``venv`` from nothing, with what is needed to build in it.
 
@@ -50,44 +47,66 @@ def create(venv: Path, lock: Path, environment: Mapping[str, str], first: tuple[
         lock: the lock file.
         environment: of the commands.
         first: what the names of the packages to install begin with; :func:`complete` the rest.
+        pip: a wheel of it; None: this Python has one.
     """
-    pins = pinned_versions(lock.read_text())
+    pins = locks.pins_of(lock.read_text())
     shutil.rmtree(venv, ignore_errors=True)
     base = getattr(sys, '_base_executable', sys.executable)
     version = '.'.join(map(str, sys.version_info[:3]))
     progress(f'installing {len(pins)} packages for Python {version} ({base}) ...')
     make = [base, '-m', 'venv', '--prompt', PACKAGE, venv]
-    run(make, environment, 'making the virtual environment')
+    run([*make, '--without-pip'] if pip else make, environment, 'making the virtual environment')
+    if pip:
+        start = [python_of(venv), pip / 'pip', 'install', '--no-index', '--no-deps', pip]
+        run(start, environment, 'installing pip')
     # Before the others: those that have no wheel are built with it.
-    _install(venv, [f'setuptools=={pins["setuptools"]}'], environment)
-    names = [name for name in pins if name.startswith(first)]
-    _install(venv, [f'{name}=={pins[name]}' for name in names], environment)
+    _install(venv, [pins['setuptools']], environment)
+    _install(venv, [pin for name, pin in pins.items() if name.startswith(first)], environment)
 
 
 def complete(venv: Path, lock: Path, environment: Mapping[str, str]) -> None:
     """Install all that ``lock`` pins and that is not there."""
-    pins = pinned_versions(lock.read_text())
-    _install(venv, [f'{name}=={version}' for name, version in pins.items()], environment)
+    _install(venv, list(locks.pins_of(lock.read_text()).values()), environment)
 
 
-def _install(venv: Path, what: Sequence[str], environment: Mapping[str, str]) -> None:
+def _install(venv: Path, pins: Sequence[Pin], environment: Mapping[str, str]) -> None:
     """Install packages, half of them by each of two pips: one keeps a single core busy."""
-    with beside(lambda: _pip_install(venv, what[1::2], environment)):
-        _pip_install(venv, what[::2], environment)
+    with beside(lambda: pip_install(venv, pins[1::2], environment)):
+        pip_install(venv, pins[::2], environment)
 
 
-def _pip_install(venv: Path, what: Sequence[str], environment: Mapping[str, str]) -> None:
+def pip_install(
+    venv: Path, pins: Sequence[Pin], environment: Mapping[str, str], target: Path | None = None
+) -> None:
     """
-    Install packages: never resolved, as every one is in the lock; never built from source, but
-    those that have no wheel.
+    Install packages: never resolved, as every one is in a lock; no file but those whose hashes are
+    there; never built from source, but those that have no wheel.
+
+    Args:
+        venv: whose pip to use.
+        pins: the packages.
+        environment: of pip.
+        target: the folder to put them in; None: the environment.
     """
-    if not what:
+    import tempfile
+
+    if not pins:
         return
     options = ['--no-deps', '--no-build-isolation', '--no-input', '--only-binary=:all:']
-    options += [f'--no-binary={",".join(WITHOUT_WHEEL)}']
-    hint = '; is the network there? `pip config list` shows the index used'
-    command = [python_of(venv), '-m', 'pip', 'install', *options, *what]
-    run(command, environment, 'installing packages', hint=hint)
+    options += [f'--no-binary={",".join(WITHOUT_WHEEL)}', '--require-hashes']
+    options += ['--target', str(target)] if target else []
+    with tempfile.TemporaryDirectory(prefix='amr-lock-') as scratch:
+        lock = locks.write_requirements(Path(scratch, 'requirements.txt'), pins)
+        command = [python_of(venv), '-m', 'pip', 'install', *options, '-r', lock]
+        run(command, environment, 'installing packages', count=lambda lines: _count(lines, pins))
+
+
+def _count(lines: Sequence[str], pins: Sequence[Pin]) -> str:
+    """Return how far pip is by what it has printed; '' before it says so."""
+    found = sum(line.startswith(('Collecting ', 'Requirement already')) for line in lines)
+    if any(line.startswith('Installing collected') for line in lines):
+        return f'unpacking {found} packages'
+    return f'{found} of {len(pins)} packages fetched' if found else ''
 
 
 def relocate(venv: Path, home: Path) -> None:

@@ -15,7 +15,7 @@ import shutil
 from . import progress, stamps
 from .checkout import Checkout, PACKAGE
 from .commands import run
-from .virtual_environment import python_of
+from .virtual_environment import python_of, site_packages
 
 MANIFESTS = ('setup.py', 'setup.cfg', 'package.xml')
 DATA_FOLDERS = ('urdf', 'config')
@@ -40,12 +40,12 @@ def is_complete(checkout: Checkout) -> bool:
     """
     Say whether a build is there that is linked to these sources.
 
-    One may have moved the checkout, deleted ``build/`` alone, or have run a plain ``colcon
-    build``, which copies.
+    One may have moved the checkout, deleted ``build/`` alone, have run a plain ``colcon build``,
+    which copies, or chosen another Python.
     """
     link, modules = checkout.build / PACKAGE, checkout.root / PACKAGE
     linked = link.is_symlink() and link.resolve() == modules.resolve()
-    return linked and (checkout.install / 'lib').is_dir()
+    return linked and site_packages(checkout.install).is_dir()
 
 
 def build(checkout: Checkout, environment: Mapping[str, str], on_top: bool) -> None:

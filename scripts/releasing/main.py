@@ -8,6 +8,7 @@ from datetime import datetime, UTC
 import os
 from pathlib import Path
 import shutil
+import subprocess
 import sys
 import tempfile
 import zipfile
@@ -15,6 +16,8 @@ import zipfile
 import environment as setup_parts
 from environment import host, interface_wheel, SetupError
 from environment.checkout import cache_folder, Checkout
+from environment.locks import canonical, Pin
+from environment.main import INTERFACES
 
 from releasing import (
     archives,
@@ -41,12 +44,12 @@ _NOTES = """\
 
 ## Install
 
-On x86-64 Linux with glibc 2.28 or later and a CPython 3.12; no compiler. In the folder with the
-files of this release:
+On x86-64 Linux with glibc 2.28 or later and a CPython {pythons}; no compiler. In the folder
+with the files of this release:
 
 ```
 sha256sum -c {sums}
-python3.12 -m venv ros
+python3 -m venv ros
 ros/bin/pip install --no-deps -r {requirements}
 source ros/setup.bash
 ros2 launch amr_description simulation
@@ -91,15 +94,19 @@ def release(
         fresh.mkdir()
         say('building the wheels ...')
         own = [package_wheel.build(root, checkout.venv, fresh, epoch, environment)]
-        interfaces, needs, compilers = _interfaces(checkout, fresh, epoch, environment)
-        own += [interfaces, *_from_sources(checkout, fresh, epoch, environment)]
-        say('asking the index of pip for the hashes of all that they need ...')
-        pins, hashes = _packages(checkout, own, environment)
-        text = locks.requirements_text(version, pins, hashes, REQUIREMENTS)
+        built = [_built(checkout, environment)]
+        built += [_built_by(python, checkout, environment) for python in options.python]
+        interfaces = [_interfaces(each, checkout.venv, fresh, epoch) for each in built]
+        own += [wheel for wheel, _, _ in interfaces]
+        own += _from_sources(checkout, fresh, epoch, environment)
+        pins = _pins(checkout, own)
+        text = locks.requirements_text(version, pins, REQUIREMENTS)
         (fresh / REQUIREMENTS).write_text(text, encoding='utf-8')
-        (fresh / SBOM).write_text(sbom.text(version, pins, hashes, epoch), encoding='utf-8')
+        (fresh / SBOM).write_text(sbom.text(version, pins, epoch), encoding='utf-8')
+        _, needs, compilers = interfaces[0]
         notes = _NOTES.format(
             version=version,
+            pythons=', '.join(sorted(map(_python_of, built))),
             draft=' (draft)' if options.draft else '',
             changes=section.text,
             sums=SUMS,
@@ -138,33 +145,51 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser('scripts/release', add_help=False)
     parser.add_argument('version', nargs='?', metavar='VERSION')
     parser.add_argument('--draft', action='store_true')
+    parser.add_argument('--python', action='append', default=[], metavar='PYTHON')
     root = Path(__file__).resolve().parents[2]
     parser.add_argument('--output', type=Path, metavar='FOLDER', default=root / 'dist')
     return parser.parse_args(arguments)
 
 
+def _built(checkout: Checkout, environment: Mapping[str, str]) -> Path:
+    """Return the wheel of the interfaces for the Python of ``.venv``."""
+    return interface_wheel.built(checkout, checkout.venv, cache_folder(environment), environment)
+
+
+def _built_by(python: str, checkout: Checkout, environment: Mapping[str, str]) -> Path:
+    """Return the wheel of the interfaces for another Python. Raises ReleaseError."""
+    command = [python, '-ES', checkout.scripts / 'environment', INTERFACES]
+    try:
+        done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True)
+    except OSError as error:
+        raise ReleaseError(f'--python {python}: {error.strerror}') from None
+    if done.returncode != 0:
+        raise ReleaseError(f'--python {python}: it cannot build the interfaces')
+    return Path(done.stdout.strip())
+
+
+def _python_of(wheel: Path) -> str:
+    """Return the version of the Python of a wheel: ``3.12``."""
+    tag = wheel.name.split('-')[2]
+    return f'3.{tag.removeprefix("cp3")}'
+
+
 def _interfaces(
-    checkout: Checkout, folder: Path, epoch: int, environment: Mapping[str, str]
+    built: Path, venv: Path, folder: Path, epoch: int
 ) -> tuple[Path, dict[str, str], list[str]]:
     """Write the wheel of the interfaces; return its path, what it needs, and who compiled it."""
-    built = interface_wheel.built(
-        checkout.interfaces,
-        checkout.requirements,
-        checkout.venv,
-        cache_folder(environment),
-        environment,
-    )
     with tempfile.TemporaryDirectory(prefix='amr-release-') as unpacked:
         with zipfile.ZipFile(built) as archive:
             archive.extractall(unpacked)
-        provided = {path.name for path in (checkout.venv / 'lib').glob('*.so*')}
+        provided = {path.name for path in (venv / 'lib').glob('*.so*')}
         try:
             needs = binaries.check(Path(unpacked), provided)
         except ReleaseError as error:
             kept = f'; remove {built.parent} first, where this one is kept'
             raise ReleaseError(f'{error}{kept}') from None
         compilers = binaries.compilers(Path(unpacked).rglob('*.so*'))
-    members = archives.retagged(archives.read(built), f'cp312-cp312-{binaries.PLATFORM}')
+    python = built.name.split('-')[2]
+    members = archives.retagged(archives.read(built), f'{python}-{python}-{binaries.PLATFORM}')
     return archives.write(members, folder, epoch), needs, compilers
 
 
@@ -172,27 +197,23 @@ def _from_sources(
     checkout: Checkout, folder: Path, epoch: int, environment: Mapping[str, str]
 ) -> list[Path]:
     """Write the wheels of what PyPI has only the sources of; return their paths."""
-    pins = locks.released_pins(checkout.requirements.read_text(encoding='utf-8'))
+    lock = checkout.requirements.read_text(encoding='utf-8')
     with tempfile.TemporaryDirectory(prefix='amr-release-') as scratch:
-        built = locks.wheels_from_sources(pins, checkout.venv, Path(scratch), environment)
+        built = locks.wheels_from_sources(lock, checkout.venv, Path(scratch), environment)
         return [archives.write(archives.read(wheel), folder, epoch) for wheel in built]
 
 
-def _packages(
-    checkout: Checkout, own: list[Path], environment: Mapping[str, str]
-) -> tuple[dict[str, str], dict[str, str]]:
-    """Return name → version and name → SHA-256 of all that users install, the own wheels first."""
-    pins, hashes = {}, {}
+def _pins(checkout: Checkout, own: list[Path]) -> list[Pin]:
+    """Return all that users install, the own wheels first, with the hashes of their files."""
+    ours: dict[str, Pin] = {}
     for wheel in own:
         name, number, *_ = wheel.name.split('-')
-        pins[name], hashes[name] = number, archives.digest(wheel)
-    ours = {locks.canonical(name) for name in pins}
+        others = ours[name].hashes if name in ours else ()
+        ours[name] = Pin(name, number, '', (*others, f'sha256:{archives.digest(wheel)}'))
+    names = {canonical(name) for name in ours}
     released = locks.released_pins(checkout.requirements.read_text(encoding='utf-8'))
-    others = {
-        name: number for name, number in released.items() if locks.canonical(name) not in ours
-    }
-    hashes |= locks.hashes_from_index(others, checkout.venv, environment)
-    return pins | others, hashes
+    others = [pin for pin in released if canonical(pin.name) not in names]
+    return [*ours.values(), *others]
 
 
 def _replace(target: Path, fresh: Path) -> None:

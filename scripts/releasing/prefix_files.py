@@ -27,7 +27,8 @@ from pathlib import Path
 from environment import launchers
 
 PACKAGE = launchers.PACKAGE
-LIBRARY = 'lib/python3.12/site-packages'
+LIBRARY = 'lib/python3.*/site-packages'
+"""As the shell finds it: a virtual environment has one."""
 
 _BEGIN = """\
 #!/bin/sh
@@ -46,6 +47,7 @@ export LD_LIBRARY_PATH="$_amr_libraries${{LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}}"
 """
 _ROOT_OF_TOOL = """\
 _amr_root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd -P) || exit
+for _amr_library in "$_amr_root"/{library}; do :; done
 """
 _COMMAND = """\
 exec "$_amr_root/bin/python" -P -c '{imports}
@@ -71,7 +73,7 @@ sys.exit({name}{attributes}())
 _IMPORTS = """\
 import sys
 
-sys.path.insert(0, sys.prefix + "/{library}")
+sys.path.insert(0, "%s/lib/python%d.%d/site-packages" % (sys.prefix, *sys.version_info[:2]))
 import amr_description
 
 del sys.path[0]"""
@@ -139,9 +141,9 @@ from amr_description.{ours} import *  # noqa: E402, F403
 def commands() -> dict[str, str]:
     """Return the text of each command, by its name in ``bin/``."""
     begin = _BEGIN.format(library=LIBRARY)
-    imports = _IMPORTS.format(library=LIBRARY)
     found = {
-        name: begin + _COMMAND.format(imports=imports, command=name) for name in launchers.COMMANDS
+        name: begin + _COMMAND.format(imports=_IMPORTS, command=name)
+        for name in launchers.COMMANDS
     }
     return {**found, 'bringup': begin + _BRINGUP}
 
@@ -151,11 +153,12 @@ def tools() -> dict[str, str]:
     cmake = launchers.CMAKE.format(
         python='"$_amr_root/bin/python"',
         code=launchers.CMAKE_CODE,
-        build=f'"$_amr_root/{LIBRARY}"',
-        cmake=f'"$_amr_root/{LIBRARY}/cmake/data/bin/cmake"',
+        build='"$_amr_library"',
+        cmake='"$_amr_library/cmake/data/bin/cmake"',
     )
     first, _, rest = cmake.partition('\n')
-    return {str(launchers.COLCONS_CMAKE): f'{first}\n{_ROOT_OF_TOOL}{rest}'}
+    root = _ROOT_OF_TOOL.format(library=LIBRARY)
+    return {str(launchers.COLCONS_CMAKE): f'{first}\n{root}{rest}'}
 
 
 def executables(console_scripts: Iterable[str]) -> dict[str, str]:
@@ -171,7 +174,7 @@ def executables(console_scripts: Iterable[str]) -> dict[str, str]:
         module, _, path = entry_point.partition(':')
         name, dot, attributes = path.partition('.')
         found[script] = _EXECUTABLE.format(
-            imports=_IMPORTS.format(library=LIBRARY),
+            imports=_IMPORTS,
             module=module,
             name=name,
             attributes=dot + attributes,

@@ -1,11 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The bill of materials of a release, in CycloneDX 1.5: each package and its hash."""
+"""The bill of materials of a release, in CycloneDX 1.5: each package and the hashes of its files."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from datetime import datetime, UTC
 import json
 import uuid
+
+from environment.locks import Pin
 
 from releasing.locks import canonical
 
@@ -13,17 +15,16 @@ _NAMESPACE = uuid.UUID('6ba7b811-9dad-11d1-80b4-00c04fd430c8')  # that of URLs, 
 _NAME = 'amr-description'
 
 
-def text(version: str, pins: Mapping[str, str], hashes: Mapping[str, str], epoch: int) -> str:
+def text(version: str, pins: Iterable[Pin], epoch: int) -> str:
     """
     Return the JSON; the same release gives the same bytes.
 
     Args:
         version: that is released.
-        pins: name → version of everything that users install.
-        hashes: name → SHA-256 of the file of each.
+        pins: everything that users install, for any Python.
         epoch: the time of the commit, s.
     """
-    components = [_component(name, pins[name], hashes[name]) for name in sorted(pins)]
+    components = [_component(pin) for pin in sorted(pins)]
     own = {canonical(each['name']): each['bom-ref'] for each in components}.get(_NAME)
     contents = json.dumps(components, sort_keys=True)
     bill = {
@@ -50,13 +51,14 @@ def text(version: str, pins: Mapping[str, str], hashes: Mapping[str, str], epoch
     return json.dumps(bill, indent=2) + '\n'
 
 
-def _component(name: str, version: str, digest: str) -> dict[str, object]:
-    purl = f'pkg:pypi/{canonical(name)}@{version}'
+def _component(pin: Pin) -> dict[str, object]:
+    purl = f'pkg:pypi/{canonical(pin.name)}@{pin.version}'
+    digests = [each.removeprefix('sha256:') for each in pin.hashes]
     return {
         'type': 'library',
         'bom-ref': purl,
-        'name': canonical(name),
-        'version': version,
+        'name': canonical(pin.name),
+        'version': pin.version,
         'purl': purl,
-        'hashes': [{'alg': 'SHA-256', 'content': digest}],
+        'hashes': [{'alg': 'SHA-256', 'content': digest} for digest in digests],
     }

@@ -9,9 +9,11 @@ import sysconfig
 
 import em
 from environment import interface_wheel
+from environment.locks import pins_of
 from hypothesis import given, strategies as st
 import pytest
 from support import public_interfaces
+from support.paths import ROOT
 
 from amr_description.errors import CompilerError, InterfaceBuildError
 from amr_description.interface_build import generators, libraries, packages, toolchain
@@ -153,12 +155,17 @@ def test_zig_is_the_last_resort(tmp_path, monkeypatch):
     assert found.cpp == (sys.executable, '-m', 'ziglang', 'c++')
 
 
-def test_missing_headers_of_python_are_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(sysconfig, 'get_path', lambda _name: str(tmp_path))
+def test_headers_of_the_environment_are_used_where_the_system_has_none(tmp_path, monkeypatch):
+    monkeypatch.setattr(sysconfig, 'get_path', lambda _name: f'{tmp_path}/usr/python3.99')
+    monkeypatch.setattr(sys, 'prefix', str(tmp_path))
     with pytest.raises(
-        InterfaceBuildError, match=f'{tmp_path}/Python.h not found.*python3.12-dev'
+        InterfaceBuildError, match=r'python3.99/Python.h not found.* python3\.1[1-4]-dev;'
     ):
         toolchain.python_headers()
+    header = tmp_path / 'include/python3.99/Python.h'
+    header.parent.mkdir(parents=True)
+    header.touch()
+    assert toolchain.python_headers() == header.parent
 
 
 def test_language_follows_the_suffix():
@@ -270,5 +277,6 @@ def test_a_parser_that_is_missing_is_one_line_with_the_way_to_get_it(tmp_path, m
 
 
 def test_set_up_installs_the_parser_where_builds_look_for_it():
-    assert interface_wheel.PARSER == generators.PARSER
+    pin = pins_of((ROOT / 'scripts/tools.lock').read_text())[interface_wheel.PARSER]
+    assert f'{pin.name}=={pin.version}' == generators.PARSER
     assert (Path(sys.prefix) / interface_wheel.PARSER_FOLDER / 'lark').is_dir()

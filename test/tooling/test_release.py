@@ -14,9 +14,21 @@ import sys
 import zipfile
 
 from ament_index_python.packages import get_package_prefix
-from environment.virtual_environment import pinned_versions, WITHOUT_WHEEL
+from environment import SetupError
+from environment.locks import Pin, pinned_versions
+from environment.virtual_environment import WITHOUT_WHEEL
 import pytest
-from releasing import archives, binaries, locks, main, ReleaseError, sbom, sources, versions
+from releasing import (
+    archives,
+    binaries,
+    lock_hashes,
+    locks,
+    main,
+    ReleaseError,
+    sbom,
+    sources,
+    versions,
+)
 from releasing.archives import Member
 from support.paths import ROOT
 import yaml
@@ -254,8 +266,8 @@ def test_a_library_is_read_by_objdump(tmp_path, monkeypatch):
 
 
 def test_users_get_the_lock_without_what_is_for_developers():
-    pins = locks.released_pins(LOCK)
-    assert {*pinned_versions(LOCK)} - {*pins} == {*locks.DEVELOPMENT}
+    pins = {pin.name for pin in locks.released_pins(LOCK)}
+    assert {*pinned_versions(LOCK, (3, 12))} - pins == {*locks.DEVELOPMENT}
     for name in ('ros-jazzy-rclpy', 'mujoco', 'colcon-core', 'pytest', 'setuptools', 'empy'):
         assert name in pins
     with pytest.raises(
@@ -278,23 +290,29 @@ def test_hashes_are_those_that_pip_reports():
         return {'metadata': {'name': name}, 'download_info': info}
 
     report = {'install': [item('PyYAML', '1f'), item('ros_rcl', '2e')]}
-    assert locks.hashes_in_report(report, ['ros-rcl', 'pyyaml']) == {
-        'ros-rcl': '2e',
-        'pyyaml': '1f',
+    assert lock_hashes.hashes_in_report(report, ['ros-rcl', 'pyyaml']) == {
+        'ros-rcl': 'sha256:2e',
+        'pyyaml': 'sha256:1f',
     }
     report['install'][0] = item('PyYAML', '')
-    with pytest.raises(ReleaseError, match='gives no SHA-256 of PyYAML, numpy'):
-        locks.hashes_in_report(report, ['PyYAML', 'ros-rcl', 'numpy'])
+    with pytest.raises(SetupError, match='gives no SHA-256 of PyYAML, numpy'):
+        lock_hashes.hashes_in_report(report, ['PyYAML', 'ros-rcl', 'numpy'])
 
 
 def test_requirements_have_a_version_and_a_hash_each():
-    text = locks.requirements_text('0.2.0', {'a': '1', 'b': '2'}, {'a': '0a', 'b': '0b'}, 'r.txt')
+    pins = [
+        Pin('a', '1', '', ('sha256:0a', 'sha256:0b')),
+        Pin('b', '2', 'python_version < "3.12"'),
+    ]
+    text = locks.requirements_text('0.2.0', pins, 'r.txt')
     lines = [line for line in text.splitlines() if not line.startswith('#')]
     assert lines == [
         '--find-links .',
         '--only-binary :all:',
-        'a==1 --hash=sha256:0a',
-        'b==2 --hash=sha256:0b',
+        'a==1 \\',
+        '    --hash=sha256:0a \\',
+        '    --hash=sha256:0b',
+        'b==2 ; python_version < "3.12"',
     ]
     assert 'pip install --no-deps -r r.txt' in text
 
@@ -320,15 +338,18 @@ def test_the_workflow_makes_what_the_script_makes():
     workflow = yaml.safe_load((ROOT / '.github/workflows/release.yml').read_text())
     steps = [step for job in workflow['jobs'].values() for step in job['steps']]
     commands = '\n'.join(step.get('run', '') for step in steps)
-    assert 'scripts/release "${GITHUB_REF_NAME#v}"\n' in commands
+    assert 'scripts/release "${GITHUB_REF_NAME#v}" "${others[@]}"\n' in commands
     for name in (main.SUMS, main.NOTES):
         assert f' {name}' in commands or f'/{name}' in commands
 
 
 def test_the_bill_of_materials_names_every_package_with_its_hash():
-    pins = {'amr_description': '0.2.0', 'PyYAML': '6.0.3', 'ros-rclpy': '7.1.6'}
-    hashes = {name: str(number) * 64 for number, name in enumerate(pins)}
-    text = sbom.text('0.2.0', pins, hashes, 1_700_000_000)
+    versions_of = {'amr_description': '0.2.0', 'PyYAML': '6.0.3', 'ros-rclpy': '7.1.6'}
+    pins = [
+        Pin(name, version, '', (f'sha256:{str(number) * 64}', 'sha256:' + 'f' * 64))
+        for number, (name, version) in enumerate(versions_of.items())
+    ]
+    text = sbom.text('0.2.0', pins, 1_700_000_000)
     bill = json.loads(text)
     assert (bill['bomFormat'], bill['specVersion']) == ('CycloneDX', '1.5')
     assert bill['metadata']['component']['version'] == '0.2.0'
@@ -342,5 +363,7 @@ def test_the_bill_of_materials_names_every_package_with_its_hash():
     refs = {each['bom-ref'] for each in bill['components']} | {'release'}
     for each in bill['dependencies']:
         assert {each['ref'], *each['dependsOn']} <= refs
-    assert sbom.text('0.2.0', pins, hashes, 1_700_000_000) == text
-    assert sbom.text('0.2.0', pins | {'PyYAML': '6.0.4'}, hashes, 1_700_000_000) != text
+    assert {len(each['hashes']) for each in bill['components']} == {2}
+    assert sbom.text('0.2.0', reversed(pins), 1_700_000_000) == text
+    other = pins[1]._replace(version='6.0.4')
+    assert sbom.text('0.2.0', [pins[0], other, pins[2]], 1_700_000_000) != text

@@ -12,6 +12,7 @@ import os
 from pathlib import Path
 import subprocess
 import sys
+import sysconfig
 
 from ament_index_python.packages import get_package_prefix
 from environment import launchers
@@ -22,10 +23,15 @@ from support.running_programs import Program
 
 NAME = 'amr_description'
 pytestmark = pytest.mark.skipif(Path(sys.prefix) != ROOT / '.venv', reason='needs .venv')
-SITE = 'lib/python3.12/site-packages'
+SITE = str(Path(sysconfig.get_path('purelib')).relative_to(sys.prefix))
 DATA = f'{NAME}-{{}}.data/data'
 # What colcon writes for itself, of no use to pip.
-OF_COLCON = ('share/colcon-core', f'share/{NAME}/hook', f'share/{NAME}/package.', 'lib/python3.12')
+OF_COLCON = (
+    'share/colcon-core',
+    f'share/{NAME}/hook',
+    f'share/{NAME}/package.',
+    SITE.rpartition('/')[0],
+)
 
 
 @pytest.fixture(scope='module')

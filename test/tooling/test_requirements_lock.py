@@ -6,19 +6,16 @@ from importlib.metadata import distributions
 from pathlib import Path
 import re
 import sys
+import sysconfig
 
 from environment import SetupError
-from environment.virtual_environment import pinned_versions
+from environment.locks import canonical, parse, Pin, pinned_versions, pins_of, PYTHONS
 import pytest
 from support.paths import ROOT
 
 LOCK = (ROOT / 'scripts' / 'requirements.lock').read_text()
 IN_PIP_UNDERLAY = Path(sys.prefix) == ROOT / '.venv'
 pytestmark = pytest.mark.skipif(not IN_PIP_UNDERLAY, reason='needs .venv')
-
-
-def canonical(name):
-    return re.sub(r'[-_.]+', '-', name).lower()
 
 
 PINNED = {canonical(name): version for name, version in pinned_versions(LOCK).items()}
@@ -29,7 +26,7 @@ def installed():
     """Distributions by name; the ROS wheels carry a second, older record beside their own."""
     return {
         canonical(found.metadata['Name']): found
-        for found in distributions(path=[str(ROOT / '.venv/lib/python3.12/site-packages')])
+        for found in distributions(path=[sysconfig.get_path('purelib')])
         if found._path.name.endswith('.dist-info')
     }
 
@@ -78,11 +75,33 @@ def test_pins_that_keep_things_working():
 def test_a_line_that_pins_nothing_is_refused():
     with pytest.raises(SetupError, match=r"requirements.lock:2: want one NAME==VERSION, .*'b>=2'"):
         pinned_versions('a==1\nb>=2  # no\n')
-    with pytest.raises(SetupError, match=r'requirements.lock:2'):
+    with pytest.raises(SetupError, match=r'want one version of a, got two'):
         pinned_versions('a==1\na==2\n')
+    with pytest.raises(SetupError, match=r"requirements.lock:1: .*'a==1 ; os_name"):
+        pinned_versions('a==1 ; os_name == "posix"\n')
 
 
-def test_developers_lock_pins_what_the_other_one_does_not_have():
+def test_a_marker_chooses_the_pythons_that_a_line_is_for():
+    lock = 'a==1 ; python_version < "3.12"\na==2 ; python_version >= "3.12"  # newer\nb==3\n'
+    assert pinned_versions(lock, (3, 11)) == {'a': '1', 'b': '3'}
+    assert pinned_versions(lock, (3, 12)) == pinned_versions(lock, (3, 14)) == {'a': '2', 'b': '3'}
+
+
+def test_what_is_written_is_what_was_read():
+    lines = [each if isinstance(each, str) else each.text() for each in parse(LOCK)]
+    assert '\n'.join([*lines, '']) == LOCK
+
+
+@pytest.mark.parametrize('name', [path.name for path in sorted((ROOT / 'scripts').glob('*.lock'))])
+def test_every_package_has_hashes_for_every_python(name):
+    lock = (ROOT / 'scripts' / name).read_text()
+    assert all(pin.hashes for pin in parse(lock) if isinstance(pin, Pin))
+    for python in PYTHONS:
+        assert pins_of(lock, python)
+
+
+def test_developers_lock_pins_what_the_other_one_does_not_have_or_the_same():
     pinned = pinned_versions((ROOT / 'scripts' / 'developers.lock').read_text())
     assert 'mypy' in pinned
-    assert not {canonical(name) for name in pinned} & PINNED.keys()
+    both = {canonical(name): version for name, version in pinned.items()}
+    assert {name: PINNED.get(name, version) for name, version in both.items()} == both

@@ -37,6 +37,7 @@ def checkout(tmp_path):
         'setup.py': '',
         'setup.cfg': '',
         'package.xml': '<package/>',
+        'scripts/tools.lock': 'lark-parser==0.12.0\n',
         'scripts/requirements.lock': 'setuptools==79.0.1\npytest==9.2.0\nros-rclpy==7.1.6\n',
         'interfaces/a_msgs/msg/A.msg': 'int8 a\n',
         **{f'{BUILDER}/{name}.py': '' for name in interface_wheel.BUILDER},
@@ -54,13 +55,13 @@ def made(checkout, monkeypatch):
     """What set_up had made, in order; the work itself is left out."""
     calls = []
 
-    def create(venv, _lock, _environment, _first):
+    def create(venv, _lock, _environment, _first, _pip):
         calls.append('environment')
         shutil.rmtree(venv, ignore_errors=True)  # as the real one
         python = virtual_environment.python_of(venv)
         python.parent.mkdir(parents=True)
         python.symlink_to(sys.executable)
-        (venv / 'lib/python3.12/site-packages').mkdir(parents=True)
+        virtual_environment.site_packages(venv).mkdir(parents=True)
         (venv / 'pyvenv.cfg').write_text(f'command = {venv}')
 
     def build(checkout, _environment, on_top):
@@ -69,7 +70,7 @@ def made(checkout, monkeypatch):
         link = checkout.build / 'amr_description'
         link.unlink(missing_ok=True)
         link.symlink_to(checkout.root / 'amr_description')
-        (checkout.install / 'lib').mkdir(parents=True, exist_ok=True)
+        virtual_environment.site_packages(checkout.install).mkdir(parents=True, exist_ok=True)
 
     monkeypatch.setattr(virtual_environment, 'create', create)
     monkeypatch.setattr(virtual_environment, 'complete', lambda *_: None)
@@ -147,9 +148,13 @@ def test_a_deleted_result_is_made_again(made, checkout, folder):
 def test_a_build_that_copies_or_is_of_another_place_is_not_complete(checkout, tmp_path):
     link = checkout.build / 'amr_description'
     link.parent.mkdir(parents=True)
-    (checkout.install / 'lib').mkdir(parents=True)
+    packages = virtual_environment.site_packages(checkout.install)
+    packages.mkdir(parents=True)
     link.symlink_to(checkout.root / 'amr_description')
     assert workspace.is_complete(checkout)
+    other = packages.parent.rename(checkout.install / 'lib/python3.99')
+    assert not workspace.is_complete(checkout)
+    other.rename(packages.parent)
     link.unlink()
     link.symlink_to(tmp_path / 'where it was' / 'amr_description')
     assert not workspace.is_complete(checkout)
@@ -271,7 +276,7 @@ def test_stamp_holds_what_was_written_until_removed(tmp_path):
 def test_wheel_depends_on_the_ros_it_is_compiled_against_not_on_the_rest(checkout):
     def key(lock):
         checkout.requirements.write_text(lock)
-        return interface_wheel.key(checkout.interfaces, checkout.requirements)
+        return interface_wheel.key(checkout)
 
     first = key('pytest==1\nros-rmw==1\n')
     assert key('pytest==2\nros-rmw==1\n') == first
@@ -362,7 +367,8 @@ def test_replaced_environment_leaves_nothing_behind(tmp_path):
 
 def test_commands_start_our_python_with_the_libraries(tmp_path):
     venv = tmp_path / 'with space' / '.venv'
-    (venv / 'lib/python3.12/site-packages/ros_rcl.libs').mkdir(parents=True)
+    packages = virtual_environment.site_packages(venv)
+    (packages / 'ros_rcl.libs').mkdir(parents=True)
     checkout = Checkout(tmp_path / "with 'quotes'")
     launchers.write(venv, venv, checkout)
     python = venv / 'bin/python'
@@ -370,16 +376,14 @@ def test_commands_start_our_python_with_the_libraries(tmp_path):
         '#!/bin/sh\necho "$_ROS_WHEELS_BOOTSTRAP_COMPLETE|$LD_LIBRARY_PATH"\nprintf "%s|" "$@"\n'
     )
     python.chmod(0o755)
-    libraries = f'{venv}/lib:{venv}/lib/python3.12/site-packages/ros_rcl.libs'
+    libraries = f'{venv}/lib:{packages}/ros_rcl.libs'
     for given, seen in (({}, libraries), ({'LD_LIBRARY_PATH': '/x'}, f'{libraries}:/x')):
         done = subprocess.run(
             [venv / 'bin/ros2', 'topic', 'a b'], env=given, capture_output=True, text=True
         )
         code = launchers.CODE.format(build=str(checkout.build))
         assert done.stdout == f'1|{seen}\n-P|-c|{code}|ros2|topic|a b|'
-    assert (venv / 'lib/python3.12/site-packages/amr_description.pth').read_text() == (
-        f'{checkout.build}\n'
-    )
+    assert (packages / 'amr_description.pth').read_text() == (f'{checkout.build}\n')
 
 
 def test_bringup_is_the_installed_executable(tmp_path):

@@ -40,7 +40,7 @@ def bare(tmp_path):
     main.write_text('import sys; print("started by", sys.executable, sys.argv[1:])\n')
     programs = tmp_path / 'programs'
     programs.mkdir()
-    for name in ('dirname', 'sed'):
+    for name in ('dirname', 'mkdir', 'sed', 'uname'):
         (programs / name).symlink_to(shutil.which(name))
     return checkout, programs
 
@@ -63,8 +63,33 @@ def set_up(bare, **environment):
 
 
 def test_python_on_the_path_is_taken(bare):
-    (bare[1] / 'python3.12').symlink_to(sys._base_executable)
-    assert set_up(bare).stdout == f'started by {bare[1]}/python3.12 []\n'
+    (bare[1] / 'python3').symlink_to(sys._base_executable)
+    assert set_up(bare).stdout == f'started by {bare[1]}/python3 []\n'
+
+
+@pytest.mark.parametrize(
+    ('there', 'taken'),
+    [
+        ({'python3': '11', 'python3.12': '12', 'python3.13': '13'}, 'python3.12'),
+        ({'python3': '13', 'python3.11': '11', 'python3.14': '14'}, 'python3'),
+        ({'python3': '11', 'python3.14': '14'}, 'python3.14'),
+        ({'python3': '12 Python.h', 'python3.11': '11'}, 'python3.11'),
+    ],
+)
+def test_jazzys_own_comes_first_and_what_is_complete_before_that(bare, there, taken):
+    for name, answer in there.items():
+        program(bare[1] / name, f'case "$1" in -E) echo {answer} ;; *) echo {name} ;; esac')
+    assert set_up(bare).stdout == f'{taken}\n'
+
+
+def test_a_python_is_taken_when_apt_can_bring_what_it_lacks(bare):
+    program(bare[1] / 'python3', 'case "$1" in -E) echo 11 pip Python.h ;; *) echo taken ;; esac')
+    done = set_up(bare)
+    assert (done.returncode, done.stdout) == (1, '')
+    assert f'{bare[1]}/python3: lacks pip Python.h' in done.stderr
+    for name in ('apt-get', 'dpkg-deb'):
+        program(bare[1] / name, 'exit 1')
+    assert set_up(bare).stdout == 'taken\n'
 
 
 def test_python_that_does_not_start_is_passed_over(bare):
@@ -75,7 +100,7 @@ def test_python_that_does_not_start_is_passed_over(bare):
 
 
 def test_python_of_pyenv_is_found(bare, tmp_path):
-    python = tmp_path / 'py env/versions/3.12.1/bin/python3.12'
+    python = tmp_path / 'py env/versions/3.12.1/bin/python3'
     program(python, f'exec {sys._base_executable} "$@"')
     done = set_up(bare, PYENV_ROOT=str(tmp_path / 'py env'))
     assert done.stdout.startswith('started by ')
@@ -83,8 +108,8 @@ def test_python_of_pyenv_is_found(bare, tmp_path):
 
 def test_python_of_a_pyenv_that_only_the_path_names_is_found(bare, tmp_path):
     root = tmp_path / 'py env'
-    program(root / 'versions/3.12.1/bin/python3.12', f'exec {sys._base_executable} "$@"')
-    program(root / 'shims/python3.12', 'echo "pyenv: python3.12: command not found" >&2; exit 127')
+    program(root / 'versions/3.12.1/bin/python3', f'exec {sys._base_executable} "$@"')
+    program(root / 'shims/python3', 'echo "pyenv: python3: command not found" >&2; exit 127')
     done = set_up(bare, PATH=f'{bare[1]}:{root}/shims')
     assert done.stdout.startswith('started by ')
 
@@ -96,6 +121,19 @@ def test_python_of_uv_is_found(bare):
         f' echo {sys._base_executable} ;; *) exit 1 ;; esac',
     )
     assert set_up(bare).stdout.startswith(f'started by {sys._base_executable}')
+
+
+def test_the_host_that_a_python_comes_from_is_said_before_it_is_asked(bare):
+    asks = '"python install 3.12") echo asked >&2; exit 1'
+    uv = bare[0] / '.local/bin/uv'
+    program(uv, f'case "$*" in {asks} ;; --version) ;; *) exit 1 ;; esac')
+    done = set_up(bare)
+    said, _, after = done.stderr.partition('fetching CPython 3.12 from github.com (35 MB), by uv')
+    assert (done.returncode, 'asked' in said, 'uv python install 3.12: asked' in after) == (
+        1, False, True,
+    )  # fmt: skip
+    other = set_up(bare, UV_PYTHON_INSTALL_MIRROR='https://mirror.example')
+    assert 'fetching CPython 3.12 from https://mirror.example, by uv' in other.stderr
 
 
 def test_no_python_gives_the_reasons_and_the_ways(bare):
@@ -112,7 +150,13 @@ def test_named_python_is_taken_or_refused(bare):
     assert chosen.stdout.startswith(f'started by {sys._base_executable}')
     refused = set_up(bare, AMR_PYTHON='/nowhere/python')
     assert refused.returncode == 1
-    assert 'AMR_PYTHON=/nowhere/python will not do' in refused.stderr
+    assert 'AMR_PYTHON=/nowhere/python will not do: it is not there' in refused.stderr
+
+
+def test_a_named_python_takes_the_place_of_that_of_an_environment(bare):
+    program(bare[0] / '.venv/bin/python', 'case "$1" in -ESc) ;; *) echo the old one ;; esac')
+    assert set_up(bare).stdout == 'the old one\n'
+    assert set_up(bare, AMR_PYTHON=sys._base_executable).stdout.startswith('started by')
 
 
 @needs_set_up
@@ -226,6 +270,31 @@ class TestActivate:
         assert done.stdout.startswith('1\n')
         assert 'AMENT_PREFIX_PATH' not in done.stdout
         assert done.stderr == (f'scripts/activate: not set up yet; run {tmp_path}/scripts/setup\n')
+
+
+def copied(tmp_path, home):
+    """A checkout with an environment that is made for ``home``."""
+    (tmp_path / 'scripts').mkdir()
+    shutil.copy(ACTIVATE, tmp_path / 'scripts')
+    for folder in ('.venv/.setup', '.venv/bin', 'install'):
+        (tmp_path / folder).mkdir(parents=True)
+    for name in ('local_setup.sh', 'bin/python'):
+        program(tmp_path / '.venv' / name, '')
+    (tmp_path / '.venv/.setup/home').write_text(f'{home}\n')
+    return tmp_path / 'scripts/activate'
+
+
+@pytest.mark.parametrize('shell', SHELLS)
+def test_a_moved_or_copied_checkout_is_said(shell, tmp_path):
+    activate = copied(tmp_path, f'/the/old{tmp_path}/.venv')
+    done = shell_run(f'set -u; . {activate}; echo $?', shell)
+    assert done.stdout == '1\n'
+    assert f'was set up elsewhere (/the/old{tmp_path}/.venv), and moved' in done.stderr
+    assert done.stderr.endswith(f'run {tmp_path}/scripts/setup\n')
+    (tmp_path / '.venv/.setup/home').write_text(f'{tmp_path}/.venv\n')
+    assert shell_run(f'. {activate}; echo $?', shell).stdout == '0\n'
+    (tmp_path / '.venv/bin/python').unlink()
+    assert 'its Python is gone' in shell_run(f'. {activate}', shell).stderr
 
 
 def test_activate_says_that_it_is_to_be_sourced():

@@ -11,6 +11,7 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
+import sysconfig
 
 import pytest
 from support.paths import ROOT
@@ -20,6 +21,7 @@ from amr_description.ament_index import own_prefix
 
 NAME = 'amr_description'
 BIN = Path(sys.prefix, 'bin')
+SITE = Path(sysconfig.get_path('purelib')).relative_to(sys.prefix)
 
 
 @pytest.fixture(scope='module')
@@ -29,7 +31,7 @@ def hers(tmp_path_factory):
     marker = prefix / 'share/ament_index/resource_index/packages' / NAME
     program = prefix / 'lib' / NAME / 'mine'
     urdf = prefix / 'share' / NAME / 'urdf/amr.urdf'
-    module = prefix / 'lib/python3.12/site-packages' / NAME / '__init__.py'
+    module = prefix / SITE / NAME / '__init__.py'
     for file in (marker, program, urdf, module):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.touch()
@@ -47,7 +49,7 @@ def variables(hers):
         **os.environ,
         'PATH': f'{BIN}:{os.environ["PATH"]}',
         'AMENT_PREFIX_PATH': f'{hers}:{os.environ["AMENT_PREFIX_PATH"]}',
-        'PYTHONPATH': str(hers / 'lib/python3.12/site-packages'),
+        'PYTHONPATH': str(hers / SITE),
     }
 
 

@@ -43,7 +43,7 @@ def machine(release, tmp_path):
         (tmp_path / name).mkdir()
     for name in PROGRAMS.split():
         (tmp_path / 'bin' / name).symlink_to(shutil.which(name))
-    (tmp_path / 'bin/python3.12').symlink_to(sys._base_executable)
+    (tmp_path / 'bin/python3').symlink_to(sys._base_executable)
     home = shutil.copytree(release, tmp_path / 'home', dirs_exist_ok=True)
     kept = {
         name: value
@@ -70,7 +70,7 @@ def machine(release, tmp_path):
 def installed(machine, tmp_path):
     """The home, after the first three lines."""
     home = tmp_path / 'home'
-    lines = ['sha256sum --check', 'python3.12 -m venv', 'ros/bin/pip install']
+    lines = ['sha256sum --check', 'python3 -m venv', 'ros/bin/pip install']
     script = 'set -e\n' + '\n'.join(line_of(INSTALL.text, line) for line in lines)
     done = subprocess.run(
         [*machine, 'bash', '-c', script],

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import sysconfig
 
 import pytest
 from support import public_interfaces
@@ -91,9 +92,10 @@ def test_a_wheel_without_colcon(tmp_path):
         assert said.count('.whl') == 2
         shell.run('python -m pip install')
     assert (target / 'share/my_msgs/msg/Sphere.json').exists()
+    packages = sysconfig.get_path('purelib').replace(sys.prefix, str(target))
     environment = {
         **os.environ,
-        'PYTHONPATH': f'{target}/lib/python3.12/site-packages',
+        'PYTHONPATH': packages,
         'LD_LIBRARY_PATH': f'{target}/lib:{os.environ.get("LD_LIBRARY_PATH", "")}',
     }
     code = 'from my_msgs.msg import Sphere; Sphere.__import_type_support__(); print(Sphere())'

@@ -7,6 +7,7 @@ import csv
 import hashlib
 import io
 from pathlib import Path
+import sys
 import zipfile
 
 import pytest
@@ -14,6 +15,8 @@ from support.public_interfaces import write_package
 
 from amr_description.errors import InterfaceBuildError
 from amr_description.interface_build import packages, records, wheel
+
+PYTHON = 'cp{}{}'.format(*sys.version_info)
 
 
 def test_packages_are_found_at_any_depth(tmp_path):
@@ -46,7 +49,7 @@ def test_a_wheel_holds_what_is_staged_and_its_checksums(tmp_path):
     for path in ('python/my_msgs/__init__.py', 'lib/libmy_msgs.so', 'share/my_msgs/package.xml'):
         records.write_if_different(stage / path, path)
     built = wheel.write_wheel(stage, tmp_path, 'my-msgs', '1.2.3')
-    assert built.name == 'my_msgs-1.2.3-cp312-cp312-linux_x86_64.whl'
+    assert built.name == f'my_msgs-1.2.3-{PYTHON}-{PYTHON}-linux_x86_64.whl'
     with zipfile.ZipFile(built) as archive:
         contents = {name: archive.read(name) for name in archive.namelist()}
     data = 'my_msgs-1.2.3.data/data'
