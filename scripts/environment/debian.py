@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What a bare Debian or Ubuntu lacks, without root: pip, the headers of Python, certificates.
+What a bare Debian or Ubuntu lacks, without root: pip with certificates, the headers of Python.
 
 These systems have them in packages of their own. apt fetches packages, and checks their
 signatures, for everybody; to unpack them elsewhere than in the system needs no rights either. The
@@ -17,43 +17,31 @@ import sys
 import sysconfig
 
 from . import progress, SetupError
-from .checkout import cache_folder
 from .commands import run
+from .virtual_environment import python_of, site_packages
 
 VERSION = 'python{}.{}'.format(*sys.version_info)
 CERTIFICATES = Path('/etc/ssl/certs/ca-certificates.crt')
-UNPACKED_CERTIFICATES = Path('usr/share/ca-certificates/mozilla')
 PACKAGES = {
-    'pip': ('python3-pip-whl',),
+    'pip': ('python3-pip-whl', 'ca-certificates'),
     'Python.h': (f'lib{VERSION}-dev',),
-    'certificates': ('ca-certificates',),
 }
 """By what is lacking: what is fetched."""
 INSTALLED = {
     'pip': f'{VERSION}-venv',
     'Python.h': f'{VERSION}-dev',
-    'certificates': 'ca-certificates',
 }
 """By what is lacking: what a person would install."""
 
 
-def lacking(environment: Mapping[str, str]) -> list[str]:
+def lacking() -> list[str]:
     """Return what is lacking here of :data:`PACKAGES`; elsewhere than on Debian nothing."""
     if not shutil.which('apt-get') or not shutil.which('dpkg-deb'):
         return []
     found = [] if importlib.util.find_spec('ensurepip') else ['pip']
     if not Path(sysconfig.get_path('include'), 'Python.h').is_file():
         found.append('Python.h')
-    if not Path(environment.get('PIP_CERT') or CERTIFICATES).is_file():
-        found.append('certificates')
     return found
-
-
-def with_certificates(environment: Mapping[str, str]) -> Mapping[str, str]:
-    """Return the variables of pip, which has to know where certificates will be."""
-    if 'PIP_CERT' in environment or 'certificates' not in lacking(environment):
-        return environment
-    return {**environment, 'PIP_CERT': str(Extras(cache_folder(environment)).certificates)}
 
 
 class Extras:
@@ -86,15 +74,32 @@ class Extras:
             for file in files:
                 extract = ['dpkg-deb', '--extract', file, unpacked]
                 run(extract, environment, f'unpacking {file.name}')
-            if name == 'certificates':
-                found = sorted((unpacked / UNPACKED_CERTIFICATES).glob('*.crt'))
-                (unpacked / 'all.crt').write_text(''.join(file.read_text() for file in found))
             unpacked.rename(self._folder / name)
 
-    def pip(self) -> Path:
-        """Return the wheel of pip."""
+    def install_pip(self, venv: Path, environment: Mapping[str, str]) -> None:
+        """Install pip into an environment that has none. Raises SetupError."""
+        import zipfile
+
         (wheel,) = self._folder.glob('pip/usr/share/python-wheels/pip-*.whl')
-        return wheel
+        with zipfile.ZipFile(wheel) as archive:
+            archive.extractall(site_packages(venv))
+        self._give_certificates(venv)
+        options = ['--no-index', '--no-deps', '--force-reinstall']  # for what is in bin/
+        command = [python_of(venv), '-m', 'pip', 'install', *options, wheel]
+        run(command, environment, 'installing pip')
+        self._give_certificates(venv)
+
+    def _give_certificates(self, venv: Path) -> None:
+        """Have Debian's pip, which knows no certificates but the system's, find some without."""
+        if CERTIFICATES.is_file():
+            return
+        found = sorted(self._folder.glob('pip/usr/share/ca-certificates/mozilla/*.crt'))
+        (venv / 'share').mkdir(exist_ok=True)
+        whole = venv / 'share' / CERTIFICATES.name
+        whole.write_text(''.join(file.read_text() for file in found))
+        module = site_packages(venv) / 'pip/_vendor/certifi/core.py'
+        ours = f"__import__('sys').prefix + '/share/{CERTIFICATES.name}'"
+        module.write_text(module.read_text().replace(f"'{CERTIFICATES}'", ours))
 
     def copy_headers(self, target: Path) -> None:
         """Copy the headers of Python to ``target``, all into one folder."""
@@ -103,11 +108,6 @@ class Extras:
         # The other one of that name is that of all architectures, and refers to this one.
         (of_this_architecture,) = headers.glob(f'*-linux-gnu/{VERSION}/pyconfig.h')
         shutil.copy(of_this_architecture, target)
-
-    @property
-    def certificates(self) -> Path:
-        """The file of certificates."""
-        return self._folder / 'certificates/all.crt'
 
 
 def _download(

@@ -63,13 +63,14 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
 def _make_environment(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
     """Install all packages, and build the interfaces meanwhile, which takes longer."""
     lock, cache = checkout.requirements, cache_folder(environment)
-    first = interface_wheel.NEEDED_TO_BUILD
-    lacks, extras = debian.lacking(environment), debian.Extras(cache)
+    lacks, extras = debian.lacking(), debian.Extras(cache)
     extras.fetch(lacks, environment)
-    pip = extras.pip() if 'pip' in lacks else None
-    virtual_environment.create(venv, lock, environment, first, pip)
+    virtual_environment.create(venv, environment, with_pip='pip' not in lacks)
+    if 'pip' in lacks:
+        extras.install_pip(venv, environment)
     if 'Python.h' in lacks:
         extras.copy_headers(venv / 'include' / debian.VERSION)
+    virtual_environment.begin(venv, lock, environment, interface_wheel.NEEDED_TO_BUILD)
     with beside(lambda: interface_wheel.built(checkout, venv, cache, environment)):
         virtual_environment.complete(venv, lock, environment)
 
@@ -80,8 +81,9 @@ def interfaces_of_this_python(checkout: Checkout, environment: Mapping[str, str]
 
     cache = cache_folder(environment)
     with tempfile.TemporaryDirectory(prefix='amr-release-') as scratch:
-        venv, first = Path(scratch, '.venv'), interface_wheel.NEEDED_TO_BUILD
-        virtual_environment.create(venv, checkout.requirements, environment, first)
+        venv, lock = Path(scratch, '.venv'), checkout.requirements
+        virtual_environment.create(venv, environment)
+        virtual_environment.begin(venv, lock, environment, interface_wheel.NEEDED_TO_BUILD)
         return interface_wheel.built(checkout, venv, cache, environment)
 
 
@@ -130,7 +132,7 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
         host.check_host()
         checkout.check()
         preflight.check_writable(checkout)
-        variables = debian.with_certificates(host.clean_environment(environment))
+        variables = host.clean_environment(environment)
         if arguments:
             print(interfaces_of_this_python(checkout, variables))
             return 0

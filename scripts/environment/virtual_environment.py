@@ -32,33 +32,21 @@ def site_packages(venv: Path) -> Path:
     return venv / 'lib' / f'python{major}.{minor}' / 'site-packages'
 
 
-def create(
-    venv: Path,
-    lock: Path,
-    environment: Mapping[str, str],
-    first: tuple[str, ...],
-    pip: Path | None = None,
-) -> None:
-    """
-    Make the environment ``venv`` from nothing, with what is needed to build in it.
-
-    Args:
-        venv: where.
-        lock: the lock file.
-        environment: of the commands.
-        first: what the names of the packages to install begin with; :func:`complete` the rest.
-        pip: a wheel of it; None: this Python has one.
-    """
-    pins = locks.pins_of(lock.read_text())
+def create(venv: Path, environment: Mapping[str, str], *, with_pip: bool = True) -> None:
+    """Make an empty environment; without pip where this Python has none to put there."""
     shutil.rmtree(venv, ignore_errors=True)
     base = getattr(sys, '_base_executable', sys.executable)
     version = '.'.join(map(str, sys.version_info[:3]))
-    progress(f'installing {len(pins)} packages for Python {version} ({base}) ...')
-    make = [base, '-m', 'venv', '--prompt', PACKAGE, venv]
-    run([*make, '--without-pip'] if pip else make, environment, 'making the virtual environment')
-    if pip:
-        start = [python_of(venv), pip / 'pip', 'install', '--no-index', '--no-deps', pip]
-        run(start, environment, 'installing pip')
+    progress(f'making an environment of Python {version} ({base}) ...')
+    options = [] if with_pip else ['--without-pip']
+    make = [base, '-m', 'venv', '--prompt', PACKAGE, *options, venv]
+    run(make, environment, 'making the virtual environment')
+
+
+def begin(venv: Path, lock: Path, environment: Mapping[str, str], first: tuple[str, ...]) -> None:
+    """Install those that others are built with: what begins so; :func:`complete` the rest."""
+    pins = locks.pins_of(lock.read_text())
+    progress(f'installing {len(pins)} packages ...')
     # Before the others: those that have no wheel are built with it.
     _install(venv, [pins['setuptools']], environment)
     _install(venv, [pin for name, pin in pins.items() if name.startswith(first)], environment)

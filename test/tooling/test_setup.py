@@ -55,7 +55,7 @@ def made(checkout, monkeypatch):
     """What set_up had made, in order; the work itself is left out."""
     calls = []
 
-    def create(venv, _lock, _environment, _first, _pip):
+    def create(venv, _environment, with_pip):
         calls.append('environment')
         shutil.rmtree(venv, ignore_errors=True)  # as the real one
         python = virtual_environment.python_of(venv)
@@ -73,6 +73,7 @@ def made(checkout, monkeypatch):
         virtual_environment.site_packages(checkout.install).mkdir(parents=True, exist_ok=True)
 
     monkeypatch.setattr(virtual_environment, 'create', create)
+    monkeypatch.setattr(virtual_environment, 'begin', lambda *_: None)
     monkeypatch.setattr(virtual_environment, 'complete', lambda *_: None)
     monkeypatch.setattr(interface_wheel, 'built', lambda *_: None)
     monkeypatch.setattr(interface_wheel, 'install', lambda *_: calls.append('interfaces'))

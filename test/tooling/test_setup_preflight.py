@@ -3,17 +3,17 @@
 """What keeps a set-up from its end is found before it begins, or said by its first cause."""
 
 import os
+import runpy
 import shutil
 import socket
 import sys
+import zipfile
 
 from environment import causes, debian, interface_wheel, preflight, SetupError, virtual_environment
 from environment.checkout import Checkout
 from environment.commands import run
 from environment.locks import Pin
 import pytest
-
-OURS = '/proc/version'  # a file that is there; nothing reads it
 
 
 @pytest.fixture
@@ -164,7 +164,7 @@ echo all >"$include/pyconfig.h"
 echo header >"$include/Python.h"
 echo ours >"$3/usr/include/x86_64-linux-gnu/python3.99/pyconfig.h"
 mkdir -p "$3/usr/share/python-wheels" "$3/usr/share/ca-certificates/mozilla"
-: >"$3/usr/share/python-wheels/pip-1.whl"
+cp "$PIP_WHEEL" "$3/usr/share/python-wheels/pip-1.whl"
 echo one >"$3/usr/share/ca-certificates/mozilla/1.crt"
 """
 
@@ -182,28 +182,38 @@ def debian_system(tmp_path, monkeypatch):
     monkeypatch.setattr(debian, 'CERTIFICATES', tmp_path / 'none')
     monkeypatch.setattr(debian.importlib.util, 'find_spec', lambda _: None)
     monkeypatch.setattr(debian.sysconfig, 'get_path', lambda _: f'{tmp_path}/include')
-    return {'PATH': os.environ['PATH'], 'HOME': str(tmp_path)}
+    with zipfile.ZipFile(tmp_path / 'pip.whl', 'w') as wheel:
+        wheel.writestr('pip/__main__.py', '')
+        wheel.writestr('pip/_vendor/certifi/core.py', f"WHERE = '{debian.CERTIFICATES}'\n")
+    wheel = str(tmp_path / 'pip.whl')
+    return {'PATH': os.environ['PATH'], 'HOME': str(tmp_path), 'PIP_WHEEL': wheel}
 
 
 def test_what_a_bare_debian_lacks_is_fetched_without_root(debian_system, tmp_path):
-    lacks = debian.lacking(debian_system)
-    assert lacks == ['pip', 'Python.h', 'certificates']
+    lacks = debian.lacking()
+    assert lacks == ['pip', 'Python.h']
     extras = debian.Extras(tmp_path / 'cache')
     extras.fetch(lacks, debian_system)
-    assert extras.pip().name == 'pip-1.whl'
-    assert extras.certificates.read_text() == 'one\n'
     extras.copy_headers(tmp_path / 'headers')
     assert (tmp_path / 'headers/pyconfig.h').read_text() == 'ours\n'
     assert (tmp_path / 'headers/Python.h').is_file()
     kept = sorted(path.name for path in (tmp_path / 'cache/debian-python3.99').iterdir())
-    assert kept == ['Python.h', 'certificates', 'pip']
+    assert kept == ['Python.h', 'pip']
 
 
-def test_certificates_that_are_named_are_used(debian_system):
-    assert 'certificates' not in debian.lacking({**debian_system, 'PIP_CERT': OURS})
-    named = debian.with_certificates(debian_system)['PIP_CERT']
-    assert named.endswith('debian-python3.99/certificates/all.crt')
-    assert 'certificates' in debian.lacking({**debian_system, 'PIP_CERT': named})
+def test_pip_finds_certificates_where_the_system_has_none(debian_system, tmp_path):
+    venv, packages = tmp_path / 'venv', virtual_environment.site_packages(tmp_path / 'venv')
+    packages.mkdir(parents=True)
+    (venv / 'bin').mkdir()
+    python = virtual_environment.python_of(venv)
+    python.write_text('#!/bin/sh\n')  # pip, which would write bin/pip
+    python.chmod(0o755)
+    extras = debian.Extras(tmp_path / 'cache')
+    extras.fetch(['pip'], debian_system)
+    extras.install_pip(venv, debian_system)
+    found = runpy.run_path(str(packages / 'pip/_vendor/certifi/core.py'))['WHERE']
+    assert found == f'{sys.prefix}/share/none'
+    assert (venv / 'share/none').read_text() == 'one\n'
 
 
 def test_where_apt_has_nothing_the_line_for_root_is_said(debian_system, tmp_path, monkeypatch):
@@ -218,4 +228,4 @@ def test_where_apt_has_nothing_the_line_for_root_is_said(debian_system, tmp_path
 
 def test_elsewhere_than_on_debian_nothing_is_fetched(debian_system, monkeypatch):
     monkeypatch.setenv('PATH', '/nowhere')
-    assert debian.lacking(debian_system) == []
+    assert debian.lacking() == []
