@@ -7,9 +7,7 @@ from datetime import datetime, UTC
 import json
 import uuid
 
-from environment.locks import Pin
-
-from releasing.locks import canonical
+from environment.locks import canonical, Pin
 
 _NAMESPACE = uuid.UUID('6ba7b811-9dad-11d1-80b4-00c04fd430c8')  # that of URLs, RFC 9562
 _NAME = 'amr-description'
