@@ -28,6 +28,9 @@ Twist: TypeAlias = tuple[float, ...]
 PLANAR = ('linear', 'angular')
 HOLONOMIC = ('linear', 'lateral', 'angular')
 
+_MOST = 1e12
+"""m/s, rad/s"""
+
 
 class CommandReception:
     """The commands of one controller; all times in ns."""
@@ -70,14 +73,24 @@ class CommandReception:
             if self._timeout and now - stamp >= self._timeout:
                 self._refuse(stamp, now)
             else:
-                self._stamp = stamp
-                self._twist = self._components(sample)
+                self._accept(sample, stamp)
 
     def receive_unstamped(self, samples: Iterable[TwistSample], now: int) -> None:
         """Take commands without a stamp, as if stamped ``now``."""
         for sample in samples:
-            self._stamp = now
-            self._twist = self._components(sample)
+            self._accept(sample, now)
+
+    def _accept(self, sample: TwistSample, stamp: int) -> None:
+        """Take a command, unless it is finite and beyond all robots: positions would be lost."""
+        twist = self._components(sample)
+        if any(_MOST < abs(each) < math.inf for each in twist):
+            self._log(
+                Severity.WARN,
+                f'A command of over {_MOST:g} m/s or rad/s is ignored, as no robot drives so',
+                throttle=1.0,
+            )
+            return
+        self._stamp, self._twist = stamp, twist
 
     def in_force(self, time: int) -> Twist | None:
         """
@@ -169,8 +182,7 @@ class ReferenceReception(CommandReception):
                 if self._stops_at_outdated:
                     self._twist = None
             else:
-                self._stamp = stamp
-                self._twist = self._components(sample)
+                self._accept(sample, stamp)
 
     def in_force(self, time: int) -> Twist | None:
         """Return the twist to drive at ``time``; None: there is none, or it is not finite."""

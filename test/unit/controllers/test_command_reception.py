@@ -106,6 +106,17 @@ def test_a_command_of_nan_changes_nothing_but_ages(listener, twist):
     assert 'contains NaNs' in listener.log.texts(Severity.WARN)[0]
 
 
+@pytest.mark.parametrize('twist', [(1e308, 0.0), (0.0, -1e308), (-1.1e12, 0.0)])
+def test_a_command_beyond_all_robots_is_ignored_and_the_one_before_stays(listener, twist):
+    """It would lose the positions of wheels: the next odometry raised, and that was the end."""
+    listener.receive((0.5, 0.0), stamp=T0, now=T0)
+    listener.receive(twist, stamp=T0 + MS, now=T0 + MS)
+    assert listener.at(T0 + MS) == (0.5, 0.0)
+    assert listener.at(T0 + TIMEOUT + 1) == (0.0, 0.0)
+    (line,) = [each for each in listener.log.texts(Severity.WARN) if 'over' in each]
+    assert line == 'A command of over 1e+12 m/s or rad/s is ignored, as no robot drives so'
+
+
 def test_braking_is_logged_once_and_only_after_motion(listener):
     def braked():
         return listener.log.texts().count('Velocity command timed out. Braking.')
