@@ -12,6 +12,8 @@ from amr_description.text import encodable, unwrap
 
 _TRACEBACK_PERIOD = 10.0
 """s between two tracebacks of one component that begin alike."""
+_CATCHERS = ('/ros/firewall.py',)
+"""They are in each traceback."""
 _LIBRARIES = (*(sysconfig.get_path(name) for name in ('stdlib', 'purelib')), '<')
 
 
@@ -32,9 +34,16 @@ def error_line(error: Exception) -> str:
 
 
 def place_of(error: BaseException) -> str:
-    """Return `` (my_controller.py:6)``: the innermost line outside of libraries; '' if none is."""
-    frames = traceback.extract_tb(error.__traceback__)
-    outside = [each for each in frames if not each.filename.startswith(_LIBRARIES)]
+    """
+    Return `` (my_controller.py:6)``: the innermost line outside of libraries; else in one; '' if
+    nothing has raised it.
+    """
+    frames = [
+        each
+        for each in traceback.extract_tb(error.__traceback__)
+        if not each.filename.endswith(_CATCHERS)
+    ]
+    outside = [each for each in frames if not each.filename.startswith(_LIBRARIES)] or frames
     return f' ({Path(outside[-1].filename).name}:{outside[-1].lineno})' if outside else ''
 
 

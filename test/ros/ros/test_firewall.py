@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What callbacks raise is logged, requests are answered, and the node serves on."""
 
+import json
+
 from nav2_msgs.srv import LoadMap
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage, ParameterValue, SetParametersResult
@@ -89,6 +91,14 @@ def test_the_first_has_its_place_and_traceback_and_the_next_ones_are_counted(
     )
     catch(guarding, lines)
     assert len(lines) == 2
+
+
+def test_what_a_library_raises_has_its_place_there(guarding, lines):
+    with pytest.raises(ValueError, match='Expecting property name') as raised:
+        json.loads('{')
+    raised.value.__traceback__ = raised.value.__traceback__.tb_next  # as if rclpy had called it
+    guarding.caught(raised.value, 'the callback of /clock', lines)
+    assert '(decoder.py:' in lines[0].splitlines()[0]
 
 
 def test_another_place_or_another_topic_is_told_by_itself(guarding, lines):
