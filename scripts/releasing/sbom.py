@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The bill of materials of a release, in CycloneDX 1.5: each package and the hashes of its files."""
+"""The bill of materials of a release, in CycloneDX 1.5: packages, and hashes of their files."""
 
 from collections.abc import Iterable
 from datetime import datetime, UTC
