@@ -21,6 +21,9 @@ from . import SetupError
 PYTHONS = ((3, 12), (3, 13), (3, 14), (3, 11))
 """Those that all files are locked for; ``scripts/setup`` prefers them in this order."""
 
+WITHOUT_HASHES = ('engine.lock', 'engine-tests.lock')
+"""Those of the simulation without ROS: they are for any system, each of which has other files."""
+
 _PIN = re.compile(r'([A-Za-z0-9._-]+)==(\S+)(?: *; *(python_version *(<|>=) *"3\.(\d+)"))?')
 _HASH = re.compile(r' +--hash=(sha256:[0-9a-f]{64})')
 

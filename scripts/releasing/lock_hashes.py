@@ -42,6 +42,8 @@ def main(arguments: list[str], environment: Mapping[str, str] = os.environ) -> i
     variables = host.clean_environment(environment)
     try:
         for lock in sorted(checkout.scripts.glob('*.lock')):
+            if lock.name in locks.WITHOUT_HASHES:
+                continue
             say(f'{lock.name} ...')
             lock.write_text(with_hashes(lock.read_text(), checkout.venv, variables))
     except (SetupError, OSError) as error:
