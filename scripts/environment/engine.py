@@ -4,7 +4,7 @@
 ``scripts/test engine [ARGUMENTS OF PYTEST]``: the simulation without ROS, in its own environment.
 
 It has the packages of scripts/engine.lock and engine-tests.lock, and none of ROS. Its Python is
-that of ``AMR_PYTHON``, else the newest one here that is not 3.12, which is ROS's, else this one.
+that of ``AMR_PYTHON``, else the first of VERSIONS that is here, else this one; 3.12 is ROS's.
 Any system will do: ``python scripts/environment/engine.py``.
 """
 
@@ -18,8 +18,8 @@ import sys
 
 ROOT = Path(__file__).resolve().parents[2]
 LOCKS = (ROOT / 'scripts' / 'engine.lock', ROOT / 'scripts' / 'engine-tests.lock')
-VERSIONS = ('3.14', '3.13')
-"""Of Pythons that are looked for, the first one counts."""
+VERSIONS = ('3.11', '3.14', '3.13')
+"""Of Pythons that are looked for, the first one counts: the oldest, which lacks most."""
 FOLDERS = (
     'base', 'model', 'control', 'controllers', 'controller_manager', 'hardware', 'sim',
     'simulation', 'navigation', 'bag',
