@@ -44,6 +44,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``ros_arguments.py``    ROS arguments: ``--ros-args -r from:=to -p name:=value``
 ``ament_index.py``      packages, executables, ``package://`` and ``file://``
 ``clock.py``            nanoseconds; messages of before a jump back in time
+``png.py``              PNG files, written
 ``text.py``             one line, quoted, shortened; the closest known word
 ``colors.py``           colors of a terminal
 ``terminal.py``         the keys in what a terminal sends, and whose the terminal is

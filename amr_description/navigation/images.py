@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from amr_description.errors import MapDataError
+from amr_description.png import png as png_of, SIGNATURE
 
 Floats: TypeAlias = NDArray[np.float64]
 Bytes: TypeAlias = NDArray[np.uint8]
@@ -24,7 +25,6 @@ Bytes: TypeAlias = NDArray[np.uint8]
 MAX_PIXELS = 1 << 28
 """An image of more is refused."""
 
-_PNG = b'\x89PNG\r\n\x1a\n'
 _NETPBM = {b'P2': (1, False), b'P3': (3, False), b'P5': (1, True), b'P6': (3, True)}
 """Magic number -> samples of a pixel, and whether they are bytes."""
 _OTHERS = {b'BM': 'a BMP file', b'\xff\xd8': 'a JPEG file', b'GIF8': 'a GIF file'}
@@ -57,7 +57,7 @@ def read_image(data: bytes) -> Image:
     Raises:
         MapDataError: it is of another format, or broken; the line says which, without the file.
     """
-    if data.startswith(_PNG):
+    if data.startswith(SIGNATURE):
         return _read_png(data)
     if data[:2] in _NETPBM:
         return _read_netpbm(data)
@@ -75,20 +75,7 @@ def pgm(gray: Bytes) -> bytes:
 
 def png(gray: Bytes, alpha: Bytes | None = None) -> bytes:
     """Return (height, width) gray values, 0 to 255, as a PNG file; RGBA where there is alpha."""
-    height, width = gray.shape
-    kind, pixels = 0, gray[:, :, None]
-    if alpha is not None:
-        kind, pixels = 6, np.stack((gray, gray, gray, alpha), axis=-1)
-    rows = pixels.reshape(height, -1)
-    unfiltered = np.concatenate((np.zeros((height, 1), np.uint8), rows), axis=1)
-    head = struct.pack('>IIBBBBB', width, height, 8, kind, 0, 0, 0)
-    parts = ((b'IHDR', head), (b'IDAT', zlib.compress(unfiltered.tobytes())), (b'IEND', b''))
-    return _PNG + b''.join(_chunk(name, body) for name, body in parts)
-
-
-def _chunk(name: bytes, body: bytes) -> bytes:
-    check = zlib.crc32(name + body)
-    return struct.pack('>I', len(body)) + name + body + struct.pack('>I', check)
+    return png_of(gray if alpha is None else np.stack((gray, gray, gray, alpha), axis=-1))
 
 
 def _check_size(width: int, height: int) -> None:
@@ -196,7 +183,7 @@ def _with_palette(indices: NDArray[np.uint16], palette: bytes, alphas: bytes | N
 def _png_parts(data: bytes) -> tuple[_Head, dict[bytes, bytes]]:
     """Return the head, and what the chunks hold, by name; several of a name together."""
     chunks: dict[bytes, list[bytes]] = {}
-    at = len(_PNG)
+    at = len(SIGNATURE)
     while at + 8 <= len(data) and b'IEND' not in chunks:
         (length,) = struct.unpack_from('>I', data, at)
         chunks.setdefault(data[at + 4 : at + 8], []).append(data[at + 8 : at + 8 + length])

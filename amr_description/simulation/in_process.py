@@ -26,7 +26,7 @@ from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError, SpawnError
 from amr_description.messages.readers import sample_of
 from amr_description.model.controller_files import declared_controllers
-from amr_description.model.frames import Transform
+from amr_description.model.frames import Transform, Vector
 from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.gazebo_bridge import bridged
 from amr_description.model.gazebo_builder import GazeboTranslation
@@ -42,6 +42,7 @@ from amr_description.simulation.managed_robots import ManagedRobots, ManagerStar
 from amr_description.simulation.manager_arguments import manager_arguments, rollers_of
 from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
 from amr_description.simulation.plugin_controllers import log_translation, start_controllers
+from amr_description.simulation.readings import Image
 from amr_description.simulation.robot import Robot
 from amr_description.simulation.sensors import Instruments, RobotSensors
 from amr_description.simulation.spawned_controllers import spawn_declared, Topics, topics_of
@@ -52,6 +53,8 @@ from amr_description.text import plain_name
 __tracebackhide__ = is_for_the_test
 
 _NODE = '/mujoco_sim'
+MAX_SIDE = 8192
+"""Pixels, of a picture."""
 
 
 class Simulation(SimulationApi[Robot]):
@@ -241,6 +244,34 @@ class Simulation(SimulationApi[Robot]):
                 f"no controller takes what is sent on '{topic}'; "
                 f'{"; ".join(reasons) or "is the one that hears it active?"}'
             )
+
+    # --- pictures ------------------------------------------------------------------------------
+
+    def picture(
+        self,
+        position: Vector | None = None,
+        target: Vector | None = None,
+        *,
+        width: int = 640,
+        height: int = 480,
+    ) -> Image:
+        """
+        Return a picture of the world at this instant; a notebook shows it, ``save`` writes it.
+
+        It needs no display, no OpenGL and no camera on a robot.
+
+        Args:
+            position: Of the camera in the world, m; None: such that all robots are in the picture.
+            target: What it looks at, m; None: the middle of the robots.
+            width: Pixels.
+            height: Pixels.
+        """
+        self._require_running()
+        if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+            raise SimulationError(
+                f'a picture of {width} x {height} pixels; each side has 1 to {MAX_SIDE}'
+            )
+        return self._instruments.measuring.picture(position, target, width, height)
 
     # --- recordings, log ----------------------------------------------------------------------
 

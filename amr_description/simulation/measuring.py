@@ -6,6 +6,7 @@ import numpy as np
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log
+from amr_description.model.frames import Vector
 from amr_description.model.sensors import (
     Camera,
     ContactSensor,
@@ -16,8 +17,9 @@ from amr_description.model.sensors import (
 )
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.cameras.pictures import encoded
-from amr_description.sim.cameras.renderer import Picture
+from amr_description.sim.cameras.renderer import Picture, Shot
 from amr_description.sim.cameras.simulated_camera import SimulatedCamera
+from amr_description.sim.cameras.viewpoints import FIELD_OF_VIEW, viewpoint
 from amr_description.sim.contact_sensor import SimulatedContacts
 from amr_description.sim.lidar import (
     cloud_rays,
@@ -27,9 +29,12 @@ from amr_description.sim.lidar import (
     SimulatedLidar,
 )
 from amr_description.sim.robot_view import RobotView
-from amr_description.sim.state_copy import StateCopier
+from amr_description.sim.state_copy import CopiedPoses, StateCopier
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.readings import Contact, Image, Points, Scan
+
+_NOWHERE = SensorMount('picture', '')
+"""On no link of any robot."""
 
 
 class Measuring:
@@ -45,7 +50,7 @@ class Measuring:
             log: Of the simulator.
         """
         self._world, self._log = world, log
-        self._states = StateCopier(world)
+        self._states, self._poses = StateCopier(world), CopiedPoses()
         self._renderer = ChosenRenderer(camera_renderer, log)
         self._lidars: dict[RobotView, dict[str, SimulatedLidar]] = {}
         self._cameras: dict[RobotView, dict[str, SimulatedCamera]] = {}
@@ -96,6 +101,18 @@ class Measuring:
         if path not in known:
             known[path] = SimulatedContacts(sensor, self._world, view, self._log)
         return [Contact(each.own, each.other) for each in known[path].read()]
+
+    def picture(
+        self, position: Vector | None, target: Vector | None, width: int, height: int
+    ) -> Image:
+        """Return what a camera sees that no robot carries; see :func:`viewpoint`."""
+        state = self._states.copy()
+        pose = viewpoint(state, self._poses.data(state), position, target, height / width)
+        camera = Camera(_NOWHERE, width, height, FIELD_OF_VIEW, near=0.01, image_topic='picture')
+        shot = Shot(camera, pose, body='', state=state, with_color=True, with_depth=False)
+        color = self._renderer.render(shot).color
+        assert color is not None, 'it was asked for'
+        return Image(self._world.time / NANOSECONDS, 'world', color)
 
     def forget(self, view: RobotView) -> None:
         """Let go of the sensors of a robot."""

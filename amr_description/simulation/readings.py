@@ -3,11 +3,13 @@
 """What is read of a simulated robot, in SI units."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from amr_description.errors import SimulationError
 from amr_description.model.frames import rpy_from_quaternion, Transform, Vector
+from amr_description.png import png
 from amr_description.text import did_you_mean
 
 
@@ -100,6 +102,19 @@ class Image:
     pixels: np.ndarray
     """Rows from above: colours, (height, width, 3) of 0 to 255 red, green, blue; grey, (height,
     width); or depths along the optical axis, m, with inf and -inf beyond what it sees."""
+
+    def save(self, path: str | Path) -> None:
+        """Write a PNG file. Raises SimulationError: these are depths."""
+        Path(path).write_bytes(self._png())
+
+    def _repr_png_(self) -> bytes | None:
+        """Return what a notebook shows; None: depths, which it shows as text."""
+        return None if self.pixels.dtype != np.uint8 else self._png()
+
+    def _png(self) -> bytes:
+        if self.pixels.dtype != np.uint8:
+            raise SimulationError('depths are in m, and a PNG file has colours or greys')
+        return png(self.pixels)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

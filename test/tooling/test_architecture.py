@@ -30,7 +30,7 @@ BASE = {
     'ament_index', 'argument_types', 'clock', 'colors', 'entry', 'errors', 'former_parameters',
     'forking', 'launch_log', 'launch_variables', 'limited_child', 'ownership',
     'parameter_files', 'parameters', 'registry', 'ros_arguments', 'stand_ins', 'streams',
-    'terminal', 'text',
+    'png', 'terminal', 'text',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {

@@ -5,6 +5,7 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 
 =========================== =======================================================================
 ``simulated_camera.py``     a camera on a robot: pictures with noise, points
+``viewpoints.py``           where a picture is taken from that no robot's camera takes
 ``renderer.py``             what a renderer is asked for, and what it gives
 ``ray_renderer.py``         one that casts a ray for each pixel, on the processor
 ``gl_renderer.py``          one that draws by OpenGL
