@@ -9,6 +9,7 @@ import sys
 
 from fixtures.cli.commands import ros2, started
 import pytest
+from support.waiting import until
 
 from amr_description.ament_index import executables_of, package_prefix, packages
 from amr_description.cli import child_process, run as run_verb
@@ -195,12 +196,14 @@ def test_stand_ins_by_other_names(package, name, ours):
 def test_a_demo_node_is_renamed_and_remapped_as_the_original(executable, node, topic):
     rules = ('-r', '__ns:=/demo', '-r', '__node:=mine', '-r', 'chatter:=news')
     with started('run', 'demo_nodes_py', executable, '--ros-args', *rules) as program:
-        if executable == 'talker':
-            program.expect('Publishing: "Hello World: 0"')
-        said = ros2('node', 'info', node).stdout
+        kind = 'Publishers' if executable == 'talker' else 'Subscribers'
+
+        def is_there():  # the node is found once it has started
+            said = ros2('node', 'info', node).stdout.partition(kind)[2].partition('Service')[0]
+            return f'{topic}: std_msgs/msg/String' in said
+
+        until(is_there)
         program.end(signal.SIGINT)
-    kind = 'Publishers' if executable == 'talker' else 'Subscribers'
-    assert f'{topic}: std_msgs/msg/String' in said.partition(kind)[2].partition('Service')[0]
 
 
 def test_every_program_of_ros2_control_has_a_stand_in():
