@@ -162,6 +162,10 @@ class Buffer(BufferInterface):
         can, reason = self.can_transform_core(target_frame, source_frame, time)
         return (can, reason) if return_debug_tuple else can
 
+    # As tf2_py.BufferCore calls them, which never waits.
+    lookup_transform_core = lookup_transform
+    lookup_transform_full_core = lookup_transform_full
+
     def can_transform_full(
         self,
         target_frame: str,
@@ -174,12 +178,11 @@ class Buffer(BufferInterface):
     ) -> bool | tuple[bool, str]:
         """Return whether :meth:`lookup_transform_full` can succeed within ``timeout``."""
         times = (target_time, source_time)
-        reason = ''
-        try:
-            self._wait(_full(target_frame, source_frame, fixed_frame, *times), timeout)
-        except TransformException as error:
-            reason = str(error)
-        return (not reason, reason) if return_debug_tuple else not reason
+        self._wait_until(_full(target_frame, source_frame, fixed_frame, *times), timeout)
+        can, reason = self.can_transform_full_core(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+        return (can, reason) if return_debug_tuple else can
 
     def wait_for_transform_async(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage
@@ -209,25 +212,6 @@ class Buffer(BufferInterface):
     ) -> TransformStamped:
         """Await a transform between two times in an ``async def`` callback."""
         return await self.wait_for_transform_full_async(
-            target_frame, target_time, source_frame, source_time, fixed_frame
-        )
-
-    def lookup_transform_core(
-        self, target_frame: str, source_frame: str, time: Time | TimeMessage
-    ) -> TransformStamped:
-        """Look up at once, as tf2_py.BufferCore does. Raises TransformException."""
-        return self.lookup_transform(target_frame, source_frame, time)
-
-    def lookup_transform_full_core(
-        self,
-        target_frame: str,
-        target_time: Time | TimeMessage,
-        source_frame: str,
-        source_time: Time | TimeMessage,
-        fixed_frame: str,
-    ) -> TransformStamped:
-        """Look up between two times at once. Raises TransformException."""
-        return self.lookup_transform_full(
             target_frame, target_time, source_frame, source_time, fixed_frame
         )
 
