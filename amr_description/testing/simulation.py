@@ -10,7 +10,7 @@ everything has ended.
 """
 
 from collections.abc import Mapping
-from contextlib import AbstractContextManager, ExitStack, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext, suppress
 from functools import cached_property
 import os
 from pathlib import Path
@@ -23,6 +23,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from simulation_interfaces.srv import DeleteEntity
 
+from amr_description.errors import AmrError, SimulationError
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_bridge import bridged
 from amr_description.model.gazebo_translation import translate
@@ -121,14 +122,19 @@ class Simulation(SimulationApi[Robot]):
         name = spawn(lock_step, self._description, pose, name or self._name, namespace)
         topics = Topics()
         if self._is_controlled:
-            topics = spawn_controllers(
-                lock_step,
-                self._robot_model,
-                self._files,
-                self._activate,
-                namespace,
-                self._bridge,
-            )
+            try:
+                topics = spawn_controllers(
+                    lock_step,
+                    self._robot_model,
+                    self._files,
+                    self._activate,
+                    namespace,
+                    self._bridge,
+                )
+            except AmrError:
+                with suppress(SimulationError):  # the simulator may have ended
+                    self.ask(DeleteEntity, entity=name)
+                raise
         sensors = RobotReadings(
             lock_step,
             self._readings,

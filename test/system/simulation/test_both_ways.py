@@ -311,6 +311,7 @@ GOOD = {
     'radius': 0.1,
     'more': 'publish_rate: 50.0',
 }
+FAR = Transform((0.0, 2.0, 0.0))
 FAULTS = [
     {'rate': 0},
     {'rate': "'fast'"},
@@ -349,6 +350,22 @@ def test_a_file_of_controllers_is_refused_in_the_same_words(tmp_path, fault):
     here, there = (said_of(kind, file) for kind in KINDS.values())
     assert here == there
     assert here
+
+
+@pytest.mark.parametrize('kind', KINDS.values(), ids=KINDS)
+def test_a_robot_whose_controllers_cannot_be_spawned_is_removed_again(tmp_path, kind):
+    file = tmp_path / 'controllers.yaml'
+    good = FILE.format(**GOOD).replace('\ncontroller_manager:', '\n/**/controller_manager:')
+    file.write_text(good.replace('\ndiff_drive', '\n/**/diff_drive'))
+    drives = ['diff_drive_controller']
+    with kind(URDF, file, activate=drives, robots={'one': Transform()}) as sim:
+        file.write_text(good.replace('\ndiff_drive', '\n/one/diff_drive'))
+        with pytest.raises(AmrError, match='there is /two/diff_drive_controller'):
+            sim.spawn('two', FAR)
+        assert list(sim.robots) == ['one']
+        sim.run(0.1)
+        file.write_text(good.replace('\ndiff_drive', '\n/**/diff_drive'))
+        assert sim.spawn('two', FAR).truth.y == pytest.approx(2.0, abs=0.01)
 
 
 def said_of(kind, file):

@@ -240,19 +240,6 @@ def test_ctrl_c_in_the_middle_of_a_drive_leaves_it_usable(sim, monkeypatch):
     assert (len(calls), sim.time) == (1, 0.1)
 
 
-def test_a_robot_whose_controllers_cannot_be_spawned_is_removed_again(tmp_path):
-    file = spinner_file(tmp_path, joint=WHEEL)
-    text = file.read_text().replace('controller_manager:', '/**/controller_manager:')
-    file.write_text(text.replace('spinner:\n', '/**/spinner:\n'))
-    with Simulation(URDF, file, activate=['spinner'], robots={'one': Transform()}) as sim:
-        file.write_text(text.replace('spinner:\n', '/one/spinner:\n'))
-        with pytest.raises(AmrError, match='spinner'):
-            sim.spawn('two', Transform((0.0, 2.0, 0.0)))
-        assert list(sim.robots) == ['one']
-        assert sim.world.names == ('one',)
-        sim.run(0.1)
-
-
 def test_a_joint_that_has_no_state_is_told_those_that_have(sim):
     sim.step()
     assert sim.joints[WHEEL].position == pytest.approx(0.0, abs=0.01)
