@@ -390,9 +390,10 @@ def parameter_file_text(node: str, parameters: Mapping[str, Any]) -> str:
     return text_of({node: {KEY: _nested(parameters)}}, sort_keys=True)
 
 
-def text_of(content: Any, *, sort_keys: bool = False) -> str:
+def text_of(content: Any, *, sort_keys: bool = False, width: float = 80) -> str:
     """Return the text of a parameter file in which :func:`content_of` finds the same."""
-    return yaml.dump(content, Dumper=_Dumper, default_flow_style=False, sort_keys=sort_keys)
+    options: dict[str, Any] = {'default_flow_style': False, 'width': width}
+    return yaml.dump(content, Dumper=_Dumper, sort_keys=sort_keys, **options)
 
 
 class _Dumper(yaml.SafeDumper):

@@ -12,8 +12,10 @@ import asyncio
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import datetime
+import math
 import os
 from pathlib import Path
+import re
 import signal
 import sys
 import threading
@@ -47,6 +49,8 @@ from amr_description.errors import AmrError
 from amr_description.launch_log import LAUNCH_LOG
 
 _INDENT = '    '
+_PROLOGUE = re.compile(r'<!--.*?-->|<\?.*?\?>', re.DOTALL)
+"""What stands before the name of a robot in its description."""
 _LONG, _BEGIN = 300, 60
 """Characters: a text that ``--print`` shortens, and what is left of it."""
 
@@ -283,7 +287,7 @@ def _shortened(text: str) -> str:
 
     content = content_of(text) if len(text) > _LONG else None
     shorter = _with_short_texts(content)
-    return text if shorter == content else text_of(shorter)
+    return text if shorter == content else text_of(shorter, width=math.inf)
 
 
 def _with_short_texts(value: Any) -> Any:
@@ -293,7 +297,8 @@ def _with_short_texts(value: Any) -> Any:
         case list():
             return [_with_short_texts(each) for each in value]
         case str() if len(value) > _LONG:
-            return f'{" ".join(value[:_BEGIN].split())} ... {len(value):,} characters'
+            begin = ' '.join(_PROLOGUE.sub('', value).split())[:_BEGIN]
+            return f'{begin} ... {len(value):,} characters'
     return value
 
 
