@@ -89,7 +89,8 @@ def test_all_that_setup_writes_into_an_environment_is_in_it(members, tmp_path):
     wanted = {
         str(path.relative_to(venv)) for path in written if '.dist-info' not in path.parts[-2]
     }
-    assert wanted - {f'{SITE}/{NAME}.pth'} - {*members} == set()
+    of_a_checkout = {f'{SITE}/{NAME}.pth', str(launchers.HOME)}
+    assert wanted - of_a_checkout - {*members} == set()
     assert all(members[f'bin/{name}'].executable for name in (*launchers.COMMANDS, 'bringup'))
     (entry_points,) = [name for name in members if name.endswith('/entry_points.txt')]
     parser = ConfigParser()
