@@ -9,6 +9,7 @@ and how other types are made of it; both registrations are of the whole process,
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from copy import deepcopy
 from typing import Any, ClassVar
 
 from builtin_interfaces.msg import Time as TimeMessage
@@ -81,13 +82,13 @@ def _registered(table: dict[Any, Callable[..., Any]], key: Any, kind: type) -> C
 
 
 def convert(a: Any, b_type: type) -> Any:
-    """Return an object of another type that says the same. Raises TypeException."""
+    """Return an object of another type that says the same, or a copy. Raises TypeException."""
     registration = ConvertRegistration()
     try:
         return registration.get_convert((type(a), b_type))(a)
     except TypeException:
         if type(a) is b_type:
-            return a
+            return deepcopy(a)
     return registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
 
 

@@ -14,7 +14,7 @@ from sensor_msgs.msg import PointCloud2
 from amr_description.model.frames import matrix_from_quaternion
 from amr_description.sensor_msgs_py.point_cloud2 import create_cloud, read_points
 from amr_description.tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
-from amr_description.tf2_ros.geometry import from_msg_msg, to_msg_msg
+from amr_description.tf2_ros.geometry import from_msg_msg, to_msg_msg, unit
 
 __all__ = ['do_transform_cloud', 'from_msg_msg', 'to_msg_msg', 'transform_points']
 
@@ -52,7 +52,7 @@ def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped) -> Point
 def _rotation_of(transform: TransformMessage) -> np.ndarray:
     rotation = transform.rotation
     return np.array(
-        matrix_from_quaternion((rotation.x, rotation.y, rotation.z, rotation.w)), dtype=float
+        matrix_from_quaternion(unit((rotation.x, rotation.y, rotation.z, rotation.w))), dtype=float
     )
 
 

@@ -24,7 +24,14 @@ from geometry_msgs.msg import (
 )
 import numpy as np
 
-from amr_description.model.frames import matrix_from_quaternion, Quaternion, rotate, Transform
+from amr_description.model.frames import (
+    IDENTITY_QUATERNION,
+    matrix_from_quaternion,
+    normalize,
+    Quaternion,
+    rotate,
+    Transform,
+)
 from amr_description.ros.messages import fill_pose, transform_of
 from amr_description.tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
 
@@ -54,12 +61,17 @@ def from_msg_msg(msg: _Message) -> _Message:
 
 
 def transform_of_message(transform: TransformStamped) -> Transform:
-    """Return what a message says."""
+    """Return what a message says, with a rotation of length 1."""
     translation, rotation = transform.transform.translation, transform.transform.rotation
     return Transform(
         (translation.x, translation.y, translation.z),
-        (rotation.x, rotation.y, rotation.z, rotation.w),
+        unit((rotation.x, rotation.y, rotation.z, rotation.w)),
     )
+
+
+def unit(rotation: Quaternion) -> Quaternion:
+    """Return a quaternion of length 1, as one typed by hand may not be; zeros are no rotation."""
+    return normalize(rotation) if any(rotation) else IDENTITY_QUATERNION
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
@@ -85,7 +97,9 @@ def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     """Return a pose in the frame of a transform."""
     result = Pose()
-    moved = transform_of_message(transform).compose(transform_of(pose))
+    given = transform_of(pose)
+    given = Transform(given.translation, unit(given.rotation))
+    moved = transform_of_message(transform).compose(given)
     fill_pose(Transform(moved.translation, _with_positive_w(moved.rotation)), result)
     return result
 

@@ -5,6 +5,7 @@
 import math
 
 from geometry_msgs.msg import (
+    Point,
     Point32,
     PointStamped,
     Polygon,
@@ -87,6 +88,18 @@ def test_a_polygon_and_a_pose_without_header(buffer):
     assert xyz(moved.position) == (1.0, 2.0, 3.0)
 
 
+def test_a_rotation_of_another_length_turns_and_does_not_stretch():
+    double = transform(rpy=(0.0, 0.0, math.pi / 2))
+    double.transform.rotation.z *= 2.0
+    double.transform.rotation.w *= 2.0
+    moved = tf2_geometry_msgs.do_transform_point(at(PointStamped, point=Point(x=1.0)), double)
+    assert xyz(moved.point) == (0.0, 1.0, 0.0)
+    zeros = transform()
+    zeros.transform.rotation.w = 0.0
+    same = tf2_geometry_msgs.do_transform_point(at(PointStamped, point=Point(x=1.0)), zeros)
+    assert xyz(same.point) == (1.0, 0.0, 0.0)
+
+
 @given(st.tuples(NUMBERS, NUMBERS, NUMBERS), st.tuples(ANGLES, ANGLES, ANGLES))
 def test_there_and_back_is_where_it_was(translation, rpy):
     buffer = tf2_ros.Buffer()
@@ -135,7 +148,9 @@ def test_own_types_are_converted(buffer):
     registration.add_to_msg(Own, lambda own: at(PointStamped))
     found = buffer.transform(at(PointStamped), 'odom', new_type=Own)
     assert found.x == pytest.approx(5.0)
-    assert tf2_ros.convert(found, Own) is found
+    copy = tf2_ros.convert(found, Own)
+    assert copy is not found
+    assert copy.x == found.x
     registration.add_convert((Own, str), lambda own: f'{own.x:.0f}')
     assert tf2_ros.convert(found, str) == '5'
     with pytest.raises(tf2_ros.TypeException):
