@@ -42,6 +42,7 @@ _SHAPE = 'a parameter file is written as  node_name: {ros__parameters: {name: va
 _STRING = 'tag:yaml.org,2002:str'
 _BYTES = 'tag:yaml.org,2002:binary'
 """A list of bytes, as ``ros2 param dump`` writes it."""
+_MERGE = 'tag:yaml.org,2002:merge'
 _PLAIN = 'amr:plain'
 _TRUTH = {
     **dict.fromkeys(
@@ -172,19 +173,25 @@ class _Loader(yaml.SafeLoader):
     """Reads a parameter file as rcl does: see :func:`scalar_of`; all keys are texts."""
 
     yaml_implicit_resolvers: ClassVar[dict[Any, Any]] = {}
+    reads_aliases: ClassVar[bool] = False
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         """Refuse what rcl does not read, with its place; have a plain scalar be known as one."""
-        if self.check_event(yaml.AliasEvent):
+        if self.check_event(yaml.AliasEvent) and not self.reads_aliases:
             event = self.peek_event()
             raise yaml.composer.ComposerError(
                 None, None, f"ROS reads no aliases, as '*{event.anchor}'; write the value out",
                 event.start_mark,
             )  # fmt: skip
+        if self.check_event(yaml.AliasEvent):
+            return super().compose_node(parent, index)
         node = super().compose_node(parent, index)
         if isinstance(node, yaml.ScalarNode):
             is_key = isinstance(parent, yaml.MappingNode) and index is None
             if is_key and node.value == '<<' and not node.style:
+                if self.reads_aliases:
+                    node.tag = _MERGE
+                    return node
                 raise yaml.composer.ComposerError(
                     None, None, "ROS merges no tables, as '<<:' does; write the values out",
                     node.start_mark,
@@ -198,6 +205,12 @@ class _Loader(yaml.SafeLoader):
         """Note what it is said to be; other tags than these two mean nothing to rcl."""
         self._given_tag = self.peek_event().tag
         return super().compose_scalar_node(anchor)
+
+
+class _SourceLoader(_Loader):
+    """Reads aliases and ``<<:``, too: of what is written out before ROS reads it."""
+
+    reads_aliases: ClassVar[bool] = True
 
 
 _Loader.add_constructor(_PLAIN, lambda _, node: scalar_of(node.value))
@@ -239,6 +252,11 @@ def content_of(text: str) -> Any:
     """Return what the text of a parameter file holds. Raises what PyYAML raises."""
     tree = compose(text)
     return None if tree is None else _Loader('').construct_document(tree)
+
+
+def whole_content_of(text: str) -> Any:
+    """Return what a text holds once aliases are written out. Raises what PyYAML raises."""
+    return yaml.load(text, Loader=_SourceLoader)
 
 
 def read_parameter_file(path: Path) -> dict[str, Any]:

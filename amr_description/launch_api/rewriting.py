@@ -25,7 +25,7 @@ from amr_description.launch_api.substitutions import (
     Substitution,
     text_of,
 )
-from amr_description.parameter_files import content_of, KEY, load_yaml, text_of as file_text
+from amr_description.parameter_files import KEY, load_yaml, text_of as file_text, whole_content_of
 
 
 class WrittenFile(Substitution):
@@ -49,12 +49,12 @@ class WrittenFile(Substitution):
         """Return the source file as YAML has it. Raises BringupError."""
         path, text = self.source(context)
         try:
-            found = load_yaml(text, content_of)
+            found = load_yaml(text, whole_content_of)
         except ParameterError as error:
             raise self.failure(f"'{path}': {error}") from None
         if not isinstance(found, dict):
             raise self.failure(f"'{path}' has no table of nodes, but {found!r}")
-        return found
+        return _apart(found)
 
     def written(self, context: LaunchContext) -> str:
         """Return the text of the new file. Raises BringupError."""
@@ -78,7 +78,8 @@ class RewrittenYaml(WrittenFile):
         param_rewrites: name or path (``node.ros__parameters.name``) of a parameter -> its value.
         root_key: a namespace for all of it.
         key_rewrites: name of a node, or any other key -> its new name.
-        convert_types: whether a value is a number or truth where it can be read so.
+        convert_types: whether a value is a number where it can be read so; true and false are
+            truth values in any case.
     """
 
     def __init__(
@@ -104,16 +105,14 @@ class RewrittenYaml(WrittenFile):
         table = self.table(context)
         known = set(_replace(table, values, ()))
         for path, value in values.items():
-            if path not in known and KEY in path.split('.'):
-                _add(table, path, value)
+            if path not in known and KEY in path.split('.') and not _add(table, path, value):
+                raise self.failure(f"'{path}': what stands above it is no table")
         table = _renamed(table, keys)
         root = '' if self.root_key is None else text_of(context, self.root_key)
         return file_text({root: table} if root else table)
 
     def _converted(self, text: str) -> Any:
-        if not self.convert_types:
-            return text
-        for kind in (int, float):
+        for kind in (int, float) if self.convert_types else ():
             with suppress(ValueError):
                 return kind(text)
         return {'true': True, 'false': False}.get(text.lower(), text)
@@ -158,29 +157,40 @@ def _folder() -> 'tempfile.TemporaryDirectory[str]':
     return tempfile.TemporaryDirectory(prefix='amr-launch-')
 
 
+def _apart(value: Any) -> Any:
+    """Return a value in which nothing stands twice, as by aliases: each has changes of its own."""
+    if isinstance(value, dict):
+        return {key: _apart(each) for key, each in value.items()}
+    return [_apart(each) for each in value] if isinstance(value, list) else value
+
+
 def _replace(
-    table: dict[Any, Any], values: Mapping[str, Any], above: tuple[str, ...]
+    table: dict[Any, Any] | list[Any], values: Mapping[str, Any], above: tuple[str, ...]
 ) -> Iterator[str]:
     """Replace what is no table by its name or path; yield the paths of all."""
-    for key, value in table.items():
+    items = table.items() if isinstance(table, dict) else enumerate(table)
+    for key, value in [*items]:
         path = (*above, str(key))
-        if isinstance(value, dict):
-            yield from _replace(value, values, path)
-            continue
         joined = '.'.join(path)
         yield joined
-        for name in (str(key), joined):
-            if name in values:
+        for name in (str(key), joined) if isinstance(table, dict) else (joined,):
+            if name in values and not isinstance(value, dict):
                 table[key] = values[name]
+        if isinstance(table[key], dict | list):
+            yield from _replace(table[key], values, path)
 
 
-def _add(table: dict[Any, Any], path: str, value: Any) -> None:
-    """Set a parameter that the file does not have."""
+def _add(table: dict[Any, Any], path: str, value: Any) -> bool:
+    """Set a parameter that the file does not have; return whether there is a place for it."""
     *above, name = path.split('.')
     for key in above:
-        inner = table.setdefault(key, {})
-        table = inner if isinstance(inner, dict) else table
+        if table.get(key) in (None, ''):
+            table[key] = {}
+        table = table[key]
+        if not isinstance(table, dict):
+            return False
     table[name] = value
+    return True
 
 
 def _renamed(table: Any, keys: Mapping[str, str]) -> Any:

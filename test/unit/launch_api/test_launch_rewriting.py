@@ -57,6 +57,26 @@ def test_what_the_file_lacks_is_added_by_its_whole_path(context, file):
     assert set(found) == {'talker', 'other', 'third'}
 
 
+def test_truth_is_read_in_any_case_and_an_item_has_its_number(context, file):
+    values = {'on': 'true', 'other.ros__parameters.list.1': '7'}
+    found = rewritten(context, file, values)
+    assert found['talker']['ros__parameters']['deep']['on'] is True
+    assert found['other']['ros__parameters']['list'] == [1, '7']
+
+
+def test_aliases_are_written_out(context, tmp_path):
+    source = tmp_path / 'p.yaml'
+    source.write_text('a: &a {ros__parameters: {x: 1}}\nb: *a\nc: {<<: *a}\n')
+    text = RewrittenYaml(str(source), {'c.ros__parameters.y': '2'}).written(context)
+    assert '*' not in text
+    assert yaml.safe_load(text)['b'] == {'ros__parameters': {'x': 1}}
+
+
+def test_a_parameter_below_a_value_has_no_place(context, file):
+    with pytest.raises(BringupError, match=r"'talker.ros__parameters.rate.x': what stands above"):
+        rewritten(context, file, {'talker.ros__parameters.rate.x': '1'})
+
+
 def test_keys_and_the_root(context, file):
     root = LaunchConfiguration('ns')
     found = rewritten(context, file, {}, root_key=root, key_rewrites={'talker': 'mine'})
