@@ -21,9 +21,15 @@ class ComposableNode(Located):
     """A node in a library of C++."""
 
     def __init__(
-        self, *, package: SomeSubstitutions, plugin: SomeSubstitutions, **others: Any
+        self,
+        *,
+        package: SomeSubstitutions,
+        plugin: SomeSubstitutions,
+        condition: Any = None,
+        **others: Any,
     ) -> None:
         self.package = package
+        self.condition = condition
         self.plugin = plugin
         self.others = others
 
@@ -48,6 +54,8 @@ class LoadComposableNodes(Action):
         """Return what is left out, and why. Raises BringupError where nothing does it here."""
         found = {}
         for each in self.components:
+            if each.condition is not None and not each.condition.evaluate(context):
+                continue
             package, plugin = (text_of(context, text) for text in (each.package, each.plugin))
             other = counterpart_of(package, plugin)
             if other is None or not other.why:

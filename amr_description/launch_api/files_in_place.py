@@ -10,6 +10,7 @@ would take parameters of ours, and an edit of the user's file would change nothi
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from amr_description.ament_index import OWN_PACKAGE
 from amr_description.bringup.controller_files import absent_file
 from amr_description.bringup.description import Node
 
@@ -29,9 +30,11 @@ def use_files_of_package(nodes: Sequence[Node], launch_file: Path) -> str:
         nodes: all that are started.
         launch_file: the one that runs.
     """
-    simulators = [node for node in nodes if node.executable == _SIMULATOR]
+    simulators = [
+        node for node in nodes if (node.package, node.executable) == (OWN_PACKAGE, _SIMULATOR)
+    ]
     texts = {text for node in nodes if (text := _value(node, _DESCRIPTION))}
-    if len(simulators) != 1 or len(texts) != 1 or _value(simulators[0], _PARAMETER):
+    if len(simulators) != 1 or len(texts) != 1 or not _has_tables_alone(simulators[0]):
         return ''
     if not (named := absent_file(texts.pop())):
         return ''
@@ -45,6 +48,12 @@ def use_files_of_package(nodes: Sequence[Node], launch_file: Path) -> str:
         f"the description names a parameter file that is not there, '{named}'; {file} is "
         'used in its place'
     )
+
+
+def _has_tables_alone(simulator: Node) -> bool:
+    """Return whether its parameters are known here, and no file for controllers is among them."""
+    known = all(isinstance(each, dict) for each in simulator.parameters)
+    return known and not simulator.command and not _value(simulator, _PARAMETER)
 
 
 def _value(node: Node, name: str) -> str:

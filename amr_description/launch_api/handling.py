@@ -45,7 +45,11 @@ from amr_description.launch_api.events import (
     ProcessStarted,
     Shutdown,
 )
-from amr_description.launch_api.lifecycle import LifecycleTransition, OnStateTransition
+from amr_description.launch_api.lifecycle import (
+    LifecycleTransition,
+    OnStateTransition,
+    Transition,
+)
 from amr_description.launch_api.locations import at, refusal
 from amr_description.launch_api.processes import ExecuteProcess
 from amr_description.launch_api.substitutions import perform_substitutions
@@ -59,12 +63,12 @@ class Started:
     """None: no process is started for it."""
     when: Condition | None
     """When; None: at once."""
-    transitions: list[tuple[str, NodeRef]] = field(default_factory=list)
-    """The states that it is asked to come to, and what asks it."""
+    transitions: list[tuple[Transition, NodeRef]] = field(default_factory=list)
+    """What it is asked for, and what asks it."""
 
-    def comes_to(self, state: str | None) -> list[Condition]:
-        """Return when it has come to a state, None: any."""
-        steps = [step for goal, step in self.transitions if state in (goal, None)]
+    def reached(self, handler: OnStateTransition) -> list[Condition]:
+        """Return when the transitions that a handler waits for have succeeded."""
+        steps = [step for transition, step in self.transitions if handler.is_of(transition)]
         return [exited_cleanly(step) for step in steps]
 
 
@@ -137,7 +141,10 @@ class Handling:
                 self._with_place(each)
         for each in self._waiting:
             name = type(each.handler).__name__
-            text = f'{each.handler.where}: {name} never comes: its target is not started'
+            why = 'its target is not started'
+            if isinstance(each.handler, OnStateTransition):
+                why = 'the launch file asks its target for no such transition'
+            text = f'{each.handler.where}: {name} never comes: {why}'
             self._translation.notes.append(('INFO', text))
         for each in self._at_the_end:
             _require_lines_only(each.handler)
@@ -169,7 +176,7 @@ class Handling:
         target = handler.target
         made = self._translation.started.get(target) if isinstance(target, Action) else None
         if made is not None and isinstance(handler, OnStateTransition):
-            return bool(made.comes_to(handler.goal_state))
+            return bool(made.reached(handler))
         return made is not None
 
     def _with_place(self, registered: Registered) -> None:
@@ -276,7 +283,7 @@ _NEVER = all_of()
 def _condition(handler: Handler, action: Action, made: Started) -> Condition | None:
     """Return when the event of a handler comes; None: at once; ``_NEVER``: never."""
     if isinstance(handler, OnStateTransition):
-        reached = made.comes_to(handler.goal_state)
+        reached = made.reached(handler)
         return any_of(*reached) if len(reached) > 1 else reached[0] if reached else _NEVER
     if isinstance(action, TimerAction):
         return made.when if isinstance(handler, OnExecutionComplete) else _NEVER

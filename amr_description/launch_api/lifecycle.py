@@ -8,6 +8,7 @@ a handler of OnStateTransition comes after the transitions that the launch file 
 """
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any
 
 from amr_description.launch_api.descriptions import Action
@@ -16,12 +17,34 @@ from amr_description.launch_api.locations import refusal
 from amr_description.launch_api.processes import Node
 from amr_description.launch_api.substitutions import SomeSubstitutions
 
-GOALS = {
-    1: 'inactive', 2: 'unconfigured', 3: 'active', 4: 'inactive', 5: 'finalized', 6: 'finalized',
-    7: 'finalized',
-}  # fmt: skip
-"""Number of a transition, as in lifecycle_msgs/msg/Transition -> the state that it leads to."""
+
+@dataclass(frozen=True)
+class Transition:
+    """A transition of lifecycle_msgs, by the names of its states."""
+
+    label: str
+    during: str
+    """The state meanwhile."""
+    goal: str
+
+
+TRANSITIONS = {
+    1: Transition('configure', 'configuring', 'inactive'),
+    2: Transition('cleanup', 'cleaningup', 'unconfigured'),
+    3: Transition('activate', 'activating', 'active'),
+    4: Transition('deactivate', 'deactivating', 'inactive'),
+    **dict.fromkeys((5, 6, 7), Transition('shutdown', 'shuttingdown', 'finalized')),
+}
+"""By their numbers, as in lifecycle_msgs/msg/Transition."""
 CONFIGURE, ACTIVATE = 1, 3
+
+
+def transition_of(number: int, where: str) -> Transition:
+    """Return a transition. Raises BringupError: there is none of that number."""
+    if number not in TRANSITIONS:
+        known = ', '.join(map(str, TRANSITIONS))
+        raise refusal(f'{where}={number!r}: it is one of {known}')
+    return TRANSITIONS[number]
 
 
 class LifecycleNode(Node):
@@ -50,9 +73,7 @@ class ChangeState(Event):
     def __init__(
         self, *, lifecycle_node_matcher: Callable[[Action], bool], transition_id: int
     ) -> None:
-        if transition_id not in GOALS:
-            known = ', '.join(map(str, GOALS))
-            raise refusal(f'ChangeState(transition_id={transition_id!r}): it is one of {known}')
+        transition_of(transition_id, 'ChangeState(transition_id)')
         self.lifecycle_node_matcher = lifecycle_node_matcher
         self.transition_id = transition_id
 
@@ -70,6 +91,8 @@ class LifecycleTransition(Action):
         super().__init__(**kwargs)
         self.lifecycle_node_names = list(lifecycle_node_names)
         self.transition_ids = list(transition_ids)
+        for number in self.transition_ids:
+            transition_of(number, 'LifecycleTransition(transition_ids)')
 
 
 class OnStateTransition(Handler):
@@ -89,3 +112,13 @@ class OnStateTransition(Handler):
         self.transition = transition
         self.start_state = start_state
         self.goal_state = goal_state
+
+    def is_of(self, done: Transition) -> bool:
+        """Return whether it waits for the success of a transition."""
+        wanted = (self.start_state, self.goal_state, self.transition)
+        found = (done.during, done.goal)
+        labels = (None, done.label, 'transition_success', f'on_{done.label}_success')
+        return (
+            all(want in (None, is_) for want, is_ in zip(wanted, found, strict=False))
+            and wanted[2] in labels
+        )

@@ -68,9 +68,9 @@ from amr_description.launch_api.lifecycle import (
     ACTIVATE,
     ChangeState,
     CONFIGURE,
-    GOALS,
     LifecycleNode,
     LifecycleTransition,
+    TRANSITIONS,
 )
 from amr_description.launch_api.locations import at, refusal
 from amr_description.launch_api.parameters import evaluated
@@ -136,6 +136,9 @@ class Translation:
         self.when: Condition | None = None
         """When the actions that are visited now are to be done; None: at once."""
         self._page_when: Condition | None = None
+        self._knows_all = False
+        self._asked: list[tuple[EmitEvent | LifecycleTransition, Condition | None]] = []
+        """What asks nodes for transitions, which may stand behind it in the file."""
         self._replaced = _Replaced()
 
     def visit(self, entities: Iterable[object] | None) -> None:
@@ -152,7 +155,11 @@ class Translation:
                 raise refusal(str(error), getattr(entity, 'where', '')) from error
 
     def handle(self) -> None:
-        """Visit what event handlers do."""
+        """Visit what event handlers do; before that, what is asked of nodes of the whole file."""
+        self._knows_all = True
+        for action, when in self._asked:
+            with self.later(when, self.context):
+                self._ask(action)
         self.handling.resolve()
 
     @contextmanager
@@ -218,8 +225,7 @@ class Translation:
             case EmitEvent():
                 self._emit(entity)
             case LifecycleTransition():
-                for name in entity.lifecycle_node_names:
-                    self._change_state(text_of(self.context, name), entity.transition_ids)
+                self._ask(entity)
             case LoadComposableNodes():
                 self._replaced.left_out |= entity.left_out(self.context)
             case Page():
@@ -246,13 +252,32 @@ class Translation:
             return
         self.event_handlers.append(EventHandler(self.when, lambda _: line, f"log '{text}'"))
 
+    def _ask(self, action: EmitEvent | LifecycleTransition) -> None:
+        """Ask nodes for transitions, once all nodes of the file are known."""
+        if not self._knows_all:
+            self._asked.append((action, self.when))
+            return
+        managed = {
+            target: made
+            for target, made in self.started.items()
+            if isinstance(target, LifecycleNode) and isinstance(made.node, StackNode)
+        }
+        if isinstance(action, EmitEvent):
+            event = action.event
+            assert isinstance(event, ChangeState), 'of the others there is none to ask'
+            for target, made in managed.items():
+                if event.lifecycle_node_matcher(target):
+                    self._change_state(_full_name(made.node), [event.transition_id], made)
+            return
+        by_name = {_full_name(made.node): made for made in managed.values()}
+        for each in action.lifecycle_node_names:
+            name = f'/{text_of(self.context, each).lstrip("/")}'
+            self._change_state(name, action.transition_ids, by_name.get(name))
+
     def _emit(self, action: EmitEvent) -> None:
         event = action.event
         if isinstance(event, ChangeState):
-            matches = event.lifecycle_node_matcher
-            for target, made in self.started.items():
-                if isinstance(target, LifecycleNode) and made.node and matches(target):
-                    self._change_state(self._full_name(target), [event.transition_id], made)
+            self._ask(action)
             return
         reason = event.text(self.context)
         stop = handlers.Shutdown(reason)
@@ -270,14 +295,8 @@ class Translation:
             step = StackNode('ros2', command=command, start_when=when, **_STEP)
             self.nodes.append(step)
             if of is not None:
-                of.transitions.append((GOALS[transition], step))
+                of.transitions.append((TRANSITIONS[transition], step))
             when = exited_cleanly(step)
-
-    def _full_name(self, action: Node) -> str:
-        context = self.context
-        outer = str(context.launch_configurations.get(NAMESPACE, ''))
-        own = '' if action.namespace is None else text_of(context, action.namespace)
-        return f'{joined_namespace(outer, own)}/{text_of(context, action.name).lstrip("/")}'
 
     def _start(self, action: ExecuteProcess) -> None:
         if action in self.started:
@@ -336,8 +355,8 @@ class Translation:
         if isinstance(action, LifecycleNode) and action.truth(
             context, action.autostart, 'autostart'
         ):
-            name, made = self._full_name(action), self.started[action]
-            self._change_state(name, (CONFIGURE, ACTIVATE), made)
+            made = self.started[action]
+            self._change_state(_full_name(made.node), (CONFIGURE, ACTIVATE), made)
 
     def _note_counterpart(self, package: str, executable: str, other: Counterpart) -> None:
         name = executable if package == executable else f'{package} {executable}'
@@ -423,6 +442,12 @@ class Translation:
             handler = OnProcessExit(target_action=action, on_exit=action.on_exit)
             handler.where = action.where
             self.handling.add(Registered(handler, self.context.copy(), None))
+
+
+def _full_name(node: NodeRef | None) -> str:
+    """Return the name of a managed node, as it is started."""
+    assert isinstance(node, StackNode), 'what is managed is a node that is started'
+    return f'{node.namespace or ""}/{node.name}'
 
 
 def _texts(context: LaunchContext, table: Mapping[Any, Any]) -> dict[str, str | None]:

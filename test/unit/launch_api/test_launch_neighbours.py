@@ -194,6 +194,40 @@ def test_a_state_that_nobody_asks_for_is_said_never_to_come(launch):
     assert 'OnStateTransition never comes' in note
 
 
+def test_a_transition_is_asked_of_nodes_by_the_names_that_they_have(launch):
+    stack = launch(
+        f"""PushRosNamespace('outer'), {asks('CONFIGURE')} managed,
+        RegisterEventHandler(OnStateTransition(target_lifecycle_node=managed,
+            goal_state='active', entities=[Node(package='toys', executable='b')])),
+        LifecycleTransition(lifecycle_node_names=['/r1/map'], transition_ids=[3]),"""
+    )
+    ask = [line for _, _, line in commands(stack)[1:]]
+    node = next(each for each in stack.nodes if each.name == 'map')
+    full = f'{node.namespace}/map'
+    assert f'ros2 lifecycle set {full} 1' in ask, 'also of one that stands behind it in the file'
+
+
+def test_a_handler_comes_after_the_transitions_of_its_node_alone(launch):
+    b = "entities=[Node(package='toys', executable='b')]"
+    stack = launch(
+        f"""managed, LifecycleTransition(lifecycle_node_names=['/r1/map'], transition_ids=[1]),
+        RegisterEventHandler(OnStateTransition(target_lifecycle_node=managed,
+            start_state='configuring', goal_state='inactive', {b})),
+        RegisterEventHandler(OnStateTransition(target_lifecycle_node=managed,
+            start_state='deactivating', goal_state='inactive', {b})),"""
+    )
+    assert [name for name, *_ in commands(stack)] == ['a-1', 'ros2-2', 'b-3']
+    (note,) = notes(stack)
+    assert note.endswith('never comes: the launch file asks its target for no such transition')
+
+
+def test_a_transition_that_there_is_not_is_said(launch):
+    with pytest.raises(
+        BringupError, match=r'LifecycleTransition\(transition_ids\)=9: it is one of'
+    ):
+        launch("LifecycleTransition(lifecycle_node_names=['/n'], transition_ids=[9]),")
+
+
 COMPONENT = "ComposableNode(package='{}', plugin='x::Y', name='y')"
 
 
@@ -205,6 +239,8 @@ def test_components_are_values_and_those_of_which_something_is_here_are_left_out
         LoadComposableNodes(target_container='c', composable_node_descriptions=[{nav2}]),
         LoadComposableNodes(target_container='c', composable_node_descriptions=[{own}],
             condition=IfCondition('False')),
+        LoadComposableNodes(target_container='c', composable_node_descriptions=[
+            ComposableNode(package='toys', plugin='x::Y', condition=IfCondition('False'))]),
         Node(package='toys', executable='a'),"""
     )
     assert [name for name, *_ in commands(stack)] == ['a-1']
