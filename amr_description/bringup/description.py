@@ -99,7 +99,7 @@ _NODE_FIELDS = {
     'prefix': validation.TEXT,
     'timeout': validation.NUMBER.or_none(),
     'required': validation.Validator(
-        "True, False or 'at start'", lambda value: value in (True, False, 'at start')
+        "True, False or 'at start'", lambda value: isinstance(value, bool) or value == 'at start'
     ),
     'respawn': validation.Validator('Respawn(…)', lambda v: isinstance(v, Respawn)).or_none(),
     'on_exit': validation.Validator(

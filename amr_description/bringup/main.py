@@ -45,7 +45,7 @@ from amr_description.bringup.run_registry import COMMAND, registry_folder, RunRe
 from amr_description.bringup.stack_files import find_stack, make_stack
 from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, ParameterError
 from amr_description.launch_log import LAUNCH_LOG
 
 _INDENT = '    '
@@ -283,9 +283,14 @@ def _node_lines(spec: ProcessSpec, name_of: NameOf) -> Iterator[str]:
 
 def _shortened(text: str) -> str:
     """Return a parameter file with the begin of each long text, such as a robot description."""
-    from amr_description.parameter_files import content_of, text_of
+    from amr_description.parameter_files import content_of, load_yaml, text_of
 
-    content = content_of(text) if len(text) > _LONG else None
+    if len(text) <= _LONG:
+        return text
+    try:
+        content = load_yaml(text, content_of)
+    except ParameterError:  # of a user's file, which its node refuses
+        return text
     shorter = _with_short_texts(content)
     return text if shorter == content else text_of(shorter, width=math.inf)
 

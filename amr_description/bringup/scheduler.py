@@ -199,7 +199,7 @@ class Scheduler:
             returncode: exit code, or minus the signal that ended it.
             last_lines: the last lines of its output, for the handler.
         """
-        is_start = self._is_start(node)
+        is_start = returncode != 0 and self._is_start(node)
         if not self.over and not is_start and self._plan_respawn(node):
             return
         restarts = self._nodes[node].restarts

@@ -276,6 +276,14 @@ def test_without_a_respawn_a_later_failure_is_only_said():
     assert not scheduler.over
 
 
+def test_a_node_that_ends_well_at_its_start_is_no_failure():
+    node = Node('navigator', required='at start')
+    scheduler = begun(node, Node('simulator'))
+    scheduler.on_exit(node, 0)
+    assert scheduler.failure is None
+    assert not scheduler.over
+
+
 def test_a_respawn_without_a_delay_is_refused():
     for wrong in ({'delay': 0}, {'backoff': 0.5}, {'limit': 0}):
         with pytest.raises(BringupError, match='delay > 0, backoff >= 1 and limit > 0'):

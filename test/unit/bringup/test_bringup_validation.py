@@ -57,6 +57,7 @@ NODE = Node('talker')
         ({'start_when': exited_cleanly}, 'a condition, as exited_cleanly(node)'),
         ({'timeout': '5'}, 'a number'),
         ({'required': 'no'}, "True, False or 'at start'"),
+        ({'required': 1}, "True, False or 'at start'"),
         ({'terminal': 1}, 'True or False'),
         ({'respawn': True}, 'Respawn(…)'),
         ({'on_exit': 'shutdwon'}, "'continue', 'shutdown' or a function"),
