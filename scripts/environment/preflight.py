@@ -47,16 +47,9 @@ def check_home(environment: Mapping[str, str]) -> None:
     say(f'{found}: nothing will be kept for other checkouts{more}')
 
 
-def index_of(environment: Mapping[str, str]) -> str:
-    """Return the URL of the index that pip asks."""
-    import subprocess
-    import sys
-
-    if url := environment.get('PIP_INDEX_URL'):
-        return url
-    command = [sys.executable, '-m', 'pip', 'config', 'get', 'global.index-url']
-    done = subprocess.run(command, env=environment, capture_output=True, text=True)
-    return done.stdout.strip() or INDEX
+def index_of(environment: Mapping[str, str], configured: Mapping[str, str]) -> str:
+    """Return the URL of the index that pip asks, its files being ``configured``."""
+    return environment.get('PIP_INDEX_URL') or configured.get('index-url') or INDEX
 
 
 def check_hosts(environment: Mapping[str, str]) -> None:
@@ -70,23 +63,44 @@ def check_hosts(environment: Mapping[str, str]) -> None:
     from urllib.parse import urlsplit
     from urllib.request import getproxies, proxy_bypass
 
-    index = urlsplit(index_of(environment))
+    configured = _configured(environment)
+    index = urlsplit(index_of(environment, configured))
     host = index.hostname
-    if not host or 'PIP_NO_INDEX' in environment:
+    no_index = environment.get('PIP_NO_INDEX') or configured.get('no-index', '')
+    if not host or no_index.lower() in ('1', 'on', 'true', 'y', 'yes', 't'):
         return
     files = f' and {FILES}' if host == urlsplit(INDEX).hostname else ''
     say(f'asks {host}{files} for packages')
-    proxy = environment.get('PIP_PROXY') or getproxies().get(index.scheme)
-    through = urlsplit(proxy) if proxy and not proxy_bypass(host) else index
-    port = through.port or (443 if through.scheme == 'https' else 80)
+    named = environment.get('PIP_PROXY') or configured.get('proxy')
+    proxy = named or getproxies().get(index.scheme)
+    through = index
+    if proxy and (named or not proxy_bypass(host)):
+        through = urlsplit(proxy if '://' in proxy else f'http://{proxy}')
+    way = host if through is index else f'the proxy {through.hostname}'
     try:
+        port = through.port or (443 if through.scheme == 'https' else 80)
         socket.create_connection((through.hostname or host, port), _PATIENCE).close()
-    except OSError as error:
-        reason = error.strerror or str(error)
-        way = f'the proxy {through.hostname}' if through is not index else host
+    except (OSError, ValueError) as error:  # the latter of a port that is none
+        reason = getattr(error, 'strerror', None) or str(error)
         raise SetupError(
             f'cannot reach {way}: {reason}; PIP_INDEX_URL names another index, HTTPS_PROXY a proxy'
         ) from None
+
+
+def _configured(environment: Mapping[str, str]) -> dict[str, str]:
+    """Return what the files of pip say of all its commands, and of installing above that."""
+    import subprocess
+    import sys
+
+    command = [sys.executable, '-m', 'pip', 'config', 'list']
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    said: dict[str, dict[str, str]] = {'global': {}, 'install': {}}
+    for line in done.stdout.splitlines():
+        name, _, value = line.partition('=')
+        section, _, option = name.partition('.')
+        if section in said:
+            said[section][option] = value.strip('\'"')
+    return said['global'] | said['install']
 
 
 def _name(user: int) -> str:

@@ -52,6 +52,24 @@ def test_on_the_way_is_the_proxy(listening, closed, monkeypatch):
         preflight.check_hosts(index)
 
 
+def test_a_proxy_without_a_scheme_is_one_and_a_port_that_is_none_is_said(listening, monkeypatch):
+    index = {'PIP_INDEX_URL': 'http://index.invalid/simple', 'PIP_NO_INDEX': '0'}
+    preflight.check_hosts(index | {'PIP_PROXY': listening.removeprefix('http://')})
+    with pytest.raises(SetupError, match='^cannot reach the proxy host: Port'):
+        preflight.check_hosts(index | {'PIP_PROXY': 'host:99999'})
+
+
+def test_what_pip_is_configured_to_do_is_done(listening, tmp_path, capsys):
+    (tmp_path / 'pip.conf').write_text(
+        f'[global]\nproxy = {listening}\n[install]\nindex-url = http://index.invalid/simple\n'
+    )
+    pip = {'PIP_CONFIG_FILE': str(tmp_path / 'pip.conf'), 'HOME': str(tmp_path)}
+    preflight.check_hosts(pip)
+    assert capsys.readouterr().err.endswith('asks index.invalid for packages\n')
+    preflight.check_hosts(pip | {'PIP_NO_INDEX': '1'})
+    assert capsys.readouterr().err == ''
+
+
 def test_an_index_of_files_needs_no_host(tmp_path, capsys):
     preflight.check_hosts({'PIP_INDEX_URL': tmp_path.as_uri()})
     assert capsys.readouterr().err == ''

@@ -78,12 +78,12 @@ def test_python_on_the_path_is_taken(bare):
 )
 def test_jazzys_own_comes_first_and_what_is_complete_before_that(bare, there, taken):
     for name, answer in there.items():
-        program(bare[1] / name, f'case "$1" in -E) echo {answer} ;; *) echo {name} ;; esac')
+        program(bare[1] / name, f'case "$2" in -c) echo {answer} ;; *) echo {name} ;; esac')
     assert set_up(bare).stdout == f'{taken}\n'
 
 
 def test_a_python_is_taken_when_apt_can_bring_what_it_lacks(bare):
-    program(bare[1] / 'python3', 'case "$1" in -E) echo 11 pip Python.h ;; *) echo taken ;; esac')
+    program(bare[1] / 'python3', 'case "$2" in -c) echo 11 pip Python.h ;; *) echo taken ;; esac')
     done = set_up(bare)
     assert (done.returncode, done.stdout) == (1, '')
     assert f'{bare[1]}/python3: lacks pip Python.h' in done.stderr
