@@ -44,10 +44,11 @@ class Repeating:
         with busy_processes(self._load):
             for run in range(1, self._runs + 1):
                 for index, item in enumerate(session.items):
-                    for report in self._workers.run_alone(session, index):
+                    reports = self._workers.run_alone(session, index)
+                    for report in reports:
                         session.config.hook.pytest_runtest_logreport(report=report)
-                        if report.failed:
-                            self._note_fall(run, report)
+                    if failed := [report for report in reports if report.failed]:
+                        self._note_fall(run, failed[0])  # its tear-down may fail after it
                     self._done[item.nodeid] += 1
         return True
 
