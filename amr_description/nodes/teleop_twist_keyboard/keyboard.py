@@ -154,8 +154,9 @@ class Keyboard:
         if not is_in_foreground(self._descriptor):
             return
         attributes = copy.deepcopy(self._attributes)
-        tty.cfmakecbreak(attributes)
+        attributes[tty.LFLAG] &= ~(termios.ECHO | termios.ICANON)
         attributes[tty.CC][termios.VMIN] = 0  # a read never waits
+        attributes[tty.CC][termios.VTIME] = 0
         attributes[tty.CC][termios.VQUIT] = _NO_KEY  # Ctrl-\ would end us without restoring
         attributes[tty.IFLAG] &= ~termios.IXON  # Ctrl-S and Ctrl-V are keys like any other
         attributes[tty.LFLAG] &= ~termios.IEXTEN
