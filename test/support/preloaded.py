@@ -445,6 +445,7 @@ def _fork_from_here(tracing):
 def _be_a_child(words, variables, files, session, tracing):
     """Be what ``subprocess`` would have started, and end; in a fork."""
     try:
+        signal.set_wakeup_fd(-1)  # of the bring-up's loop; only from 3.12 on asyncio does that
         for number in signal.valid_signals():
             if callable(signal.getsignal(number)):
                 signal.signal(number, signal.SIG_DFL)
