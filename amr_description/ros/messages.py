@@ -13,7 +13,7 @@ from amr_description.model.frames import Transform, Vector
 
 if TYPE_CHECKING:  # geometry_msgs takes its time to import, and many need stamps only
     from builtin_interfaces.msg import Time
-    from geometry_msgs.msg import Accel, Pose, Twist, Vector3
+    from geometry_msgs.msg import Accel, Pose, Transform as TransformMessage, Twist, Vector3
 
 
 def nanoseconds(stamp: 'Time') -> int:
@@ -53,6 +53,12 @@ def fill_velocity(linear: Vector, angular: Vector, twist: 'Twist | Accel') -> No
 def vector_of(vector: 'Vector3') -> Vector:
     """Read three numbers."""
     return (vector.x, vector.y, vector.z)
+
+
+def transform_of_message(message: 'TransformMessage') -> Transform:
+    """Read a transform, its rotation as it is given."""
+    shift, turn = message.translation, message.rotation
+    return Transform((shift.x, shift.y, shift.z), (turn.x, turn.y, turn.z, turn.w))
 
 
 def transform_of(pose: 'Pose') -> Transform:

@@ -26,10 +26,9 @@ from tf2_msgs.srv import FrameGraph
 
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
 from amr_description.errors import TransformException
-from amr_description.model.frames import Transform
-from amr_description.ros.messages import fill_stamp, nanoseconds
+from amr_description.ros.messages import fill_stamp, nanoseconds, transform_of_message
 from amr_description.tf2_ros.buffer_core import BufferCore, CACHE_TIME, InputWarning
-from amr_description.tf2_ros.buffer_interface import BufferInterface
+from amr_description.tf2_ros.buffer_interface import BufferInterface, nanoseconds_of
 from amr_description.tf2_ros.frame_graph import FrameRecord, frames_as_string, frames_as_yaml
 from amr_description.tf2_ros.time_cache import StampedTransform
 
@@ -220,7 +219,7 @@ class Buffer(BufferInterface):
     ) -> tuple[bool, str]:
         """Return whether it can be looked up now, and why not."""
         with self._changed:
-            reason = self._core.explain_failure(target_frame, source_frame, _nanoseconds(time))
+            reason = self._core.explain_failure(target_frame, source_frame, nanoseconds_of(time))
         return not reason, reason
 
     def can_transform_full_core(
@@ -357,15 +356,11 @@ class Buffer(BufferInterface):
 
 def stamped_transform(message: TransformStamped) -> StampedTransform:
     """Return what a message says; its ``frame_id`` is the parent."""
-    translation, rotation = message.transform.translation, message.transform.rotation
     return StampedTransform(
         message.header.frame_id,
         message.child_frame_id,
-        _nanoseconds(message.header.stamp),
-        Transform(
-            (translation.x, translation.y, translation.z),
-            (rotation.x, rotation.y, rotation.z, rotation.w),
-        ),
+        nanoseconds(message.header.stamp),
+        transform_of_message(message.transform),
     )
 
 
@@ -382,7 +377,7 @@ def transform_message(stamped: StampedTransform) -> TransformStamped:
 
 
 def _simple(target: str, source: str, time: Time | TimeMessage) -> _Lookup:
-    when = _nanoseconds(time)
+    when = nanoseconds_of(time)
     return lambda core: transform_message(core.lookup_transform(target, source, when))
 
 
@@ -393,11 +388,7 @@ def _full(
     target_time: Time | TimeMessage,
     source_time: Time | TimeMessage,
 ) -> _Lookup:
-    at_target, at_source = _nanoseconds(target_time), _nanoseconds(source_time)
+    at_target, at_source = nanoseconds_of(target_time), nanoseconds_of(source_time)
     return lambda core: transform_message(
         core.lookup_transform_full(target, at_target, source, at_source, fixed)
     )
-
-
-def _nanoseconds(time: Time | TimeMessage) -> int:
-    return time.nanoseconds if isinstance(time, Time) else nanoseconds(time)

@@ -23,9 +23,9 @@ from amr_description.errors import (
     TimeoutException,
     TransformException,
 )
-from amr_description.ros.messages import fill_stamp, nanoseconds
+from amr_description.ros.messages import fill_stamp
 from amr_description.ros.wait_clock import WaitClock
-from amr_description.tf2_ros.buffer_interface import BufferInterface
+from amr_description.tf2_ros.buffer_interface import BufferInterface, nanoseconds_of
 
 EXCEPTIONS: dict[int, type[TransformException]] = {
     TF2Error.LOOKUP_ERROR: LookupException,
@@ -73,7 +73,7 @@ class BufferClient(BufferInterface):
     ) -> TransformStamped:
         """Return a transform. Raises TransformException."""
         goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame)
-        fill_stamp(_nanoseconds(time), goal.source_time)
+        fill_stamp(nanoseconds_of(time), goal.source_time)
         return self._result_of(goal, timeout)
 
     def lookup_transform_full(
@@ -92,8 +92,8 @@ class BufferClient(BufferInterface):
             fixed_frame=fixed_frame,
             advanced=True,
         )
-        fill_stamp(_nanoseconds(source_time), goal.source_time)
-        fill_stamp(_nanoseconds(target_time), goal.target_time)
+        fill_stamp(nanoseconds_of(source_time), goal.source_time)
+        fill_stamp(nanoseconds_of(target_time), goal.target_time)
         return self._result_of(goal, timeout)
 
     def can_transform(
@@ -120,10 +120,9 @@ class BufferClient(BufferInterface):
         timeout: Duration = Duration(),  # noqa: B008
     ) -> bool:
         """Return whether :meth:`lookup_transform_full` can succeed within ``timeout``."""
-        times = (target_time, source_time)
         try:
             self.lookup_transform_full(
-                target_frame, times[0], source_frame, times[1], fixed_frame, timeout
+                target_frame, target_time, source_frame, source_time, fixed_frame, timeout
             )
         except TransformException:
             return False
@@ -162,7 +161,3 @@ class BufferClient(BufferInterface):
                 future.cancel()
                 raise TimeoutException('the buffer server has not answered in time')
         return future.result()
-
-
-def _nanoseconds(time: Time | TimeMessage) -> int:
-    return time.nanoseconds if isinstance(time, Time) else nanoseconds(time)

@@ -19,6 +19,7 @@ from rclpy.time import Time
 from std_msgs.msg import Header
 
 from amr_description.errors import TypeException
+from amr_description.ros.messages import nanoseconds
 
 
 class TransformRegistration:
@@ -90,6 +91,11 @@ def convert(a: Any, b_type: type) -> Any:
         if type(a) is b_type:
             return deepcopy(a)
     return registration.get_from_msg(b_type)(registration.get_to_msg(type(a))(a))
+
+
+def nanoseconds_of(time: Time | TimeMessage) -> int:
+    """Return a time, of rclpy or of a message, in ns."""
+    return time.nanoseconds if isinstance(time, Time) else nanoseconds(time)
 
 
 def Stamped(obj: Any, stamp: TimeMessage, frame_id: str) -> Any:  # noqa: N802 - as in tf2_ros

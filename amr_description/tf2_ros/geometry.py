@@ -32,7 +32,7 @@ from amr_description.model.frames import (
     rotate,
     Transform,
 )
-from amr_description.ros.messages import fill_pose, transform_of
+from amr_description.ros.messages import fill_pose, transform_of, transform_of_message
 from amr_description.tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
 
 __all__ = [
@@ -60,13 +60,13 @@ def from_msg_msg(msg: _Message) -> _Message:
     return msg
 
 
-def transform_of_message(transform: TransformStamped) -> Transform:
+def _move_of(transform: TransformStamped) -> Transform:
     """Return what a message says, with a rotation of length 1."""
-    translation, rotation = transform.transform.translation, transform.transform.rotation
-    return Transform(
-        (translation.x, translation.y, translation.z),
-        unit((rotation.x, rotation.y, rotation.z, rotation.w)),
-    )
+    return _with_unit(transform_of_message(transform.transform))
+
+
+def _with_unit(transform: Transform) -> Transform:
+    return Transform(transform.translation, unit(transform.rotation))
 
 
 def unit(rotation: Quaternion) -> Quaternion:
@@ -78,7 +78,7 @@ def do_transform_point(point: PointStamped, transform: TransformStamped) -> Poin
     """Return a point in the frame of a transform."""
     given = point.point
     result = PointStamped(header=transform.header)
-    result.point.x, result.point.y, result.point.z = transform_of_message(transform).apply(
+    result.point.x, result.point.y, result.point.z = _move_of(transform).apply(
         (given.x, given.y, given.z)
     )
     return result
@@ -88,7 +88,7 @@ def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -
     """Return a direction in the frame of a transform: it is turned, and not moved."""
     given = vector3.vector
     result = Vector3Stamped(header=transform.header)
-    rotation = transform_of_message(transform).rotation
+    rotation = _move_of(transform).rotation
     turned = rotate(rotation, (given.x, given.y, given.z))
     result.vector.x, result.vector.y, result.vector.z = turned
     return result
@@ -97,9 +97,7 @@ def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     """Return a pose in the frame of a transform."""
     result = Pose()
-    given = transform_of(pose)
-    given = Transform(given.translation, unit(given.rotation))
-    moved = transform_of_message(transform).compose(given)
+    moved = _move_of(transform).compose(_with_unit(transform_of(pose)))
     fill_pose(Transform(moved.translation, _with_positive_w(moved.rotation)), result)
     return result
 
@@ -130,7 +128,7 @@ def do_transform_polygon_stamped(
     polygon: PolygonStamped, transform: TransformStamped
 ) -> PolygonStamped:
     """Return a polygon in the frame of a transform."""
-    move = transform_of_message(transform)
+    move = _move_of(transform)
     corners = (move.apply((each.x, each.y, each.z)) for each in polygon.polygon.points)
     points = [Point32(x=x, y=y, z=z) for x, y, z in corners]
     return PolygonStamped(header=transform.header, polygon=Polygon(points=points))
@@ -147,7 +145,7 @@ def transform_covariance(cov_in: Sequence[float], transform: TransformStamped) -
     Returns:
         ``J cov Jᵀ`` with ``J = diag(R, R)``, 36 numbers.
     """
-    rotation = np.array(matrix_from_quaternion(transform_of_message(transform).rotation))
+    rotation = np.array(matrix_from_quaternion(_move_of(transform).rotation))
     both = np.kron(np.eye(2), rotation)
     return np.asarray(both @ np.reshape(cov_in, (6, 6)) @ both.T).reshape(36)
 

@@ -53,10 +53,9 @@ from amr_description.navigation.ros.ekf_outputs import (
     diagnostic_array,
     odometry_message,
     Outputs,
-    transform_of_message,
 )
 from amr_description.navigation.ros.messages import is_place
-from amr_description.ros.messages import nanoseconds, vector_of
+from amr_description.ros.messages import nanoseconds, transform_of_message, vector_of
 from amr_description.ros.parameters import PUBLISHER_POLICIES
 from amr_description.ros.rclpy_internals import parameter_overrides, set_parameter_override
 from amr_description.tf2_ros.buffer import Buffer

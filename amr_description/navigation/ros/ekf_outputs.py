@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import (
     AccelWithCovarianceStamped,
-    Transform as TransformMessage,
     TransformStamped,
 )
 from nav_msgs.msg import Odometry
@@ -148,12 +147,6 @@ def diagnostic_array(name: str, found: Sequence[Status], now: int) -> Diagnostic
         for each in found
     ]
     return message
-
-
-def transform_of_message(message: TransformMessage) -> Transform:
-    """Read a transform."""
-    place, turn = message.translation, message.rotation
-    return Transform((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
 
 
 def _vector(numbers: Array) -> Vector:

@@ -33,7 +33,7 @@ from amr_description.ament_index import resolve_uri
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, DescriptionError
 from amr_description.model.footprint import footprint
-from amr_description.model.frames import Transform, yaw_of
+from amr_description.model.frames import yaw_of
 from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse
 from amr_description.navigation.contract.frame_rules import TF_TIMEOUT
@@ -59,7 +59,7 @@ from amr_description.navigation.ros.contract.graph import (
     topics_elsewhere,
 )
 from amr_description.navigation.ros.contract.lookups import with_lookups
-from amr_description.ros.messages import nanoseconds
+from amr_description.ros.messages import nanoseconds, transform_of_message
 from amr_description.ros.qos import LATCHED, TF_STATIC
 
 CLOCK_TOPIC, TF_TOPIC, TF_STATIC_TOPIC = '/clock', '/tf', '/tf_static'
@@ -322,8 +322,7 @@ def _transforms(message: TFMessage, info: _Info, *, is_static: bool) -> list[Tra
     received, sequence = _received(info), info.get('publication_sequence_number') or 0
     found = []
     for each in message.transforms:
-        shift, turn = each.transform.translation, each.transform.rotation
-        pose = Transform((shift.x, shift.y, shift.z), (turn.x, turn.y, turn.z, turn.w))
+        pose = transform_of_message(each.transform)
         found.append(
             TransformSeen(
                 # tf2 drops a leading slash, of which messages of ROS 1 have some.
