@@ -28,7 +28,7 @@ import math
 from pathlib import Path
 import time as wall
 from types import MappingProxyType, TracebackType
-from typing import Any, Generic, Self, TypeVar
+from typing import Any, Generic, Protocol, Self, TypeVar
 import warnings
 
 from amr_description.ament_index import path_of
@@ -58,6 +58,17 @@ STILL = 1e-3
 """m/s and rad/s; a slower robot counts as standing."""
 
 
+class SensorReadings(Protocol):
+    """What the sensors of a robot see at the present instant, of a topic or the only one."""
+
+    def scan(self, topic: str = '') -> Scan: ...
+    def image(self, topic: str = '') -> Image: ...
+    def depth(self, topic: str = '') -> Image: ...
+    def points(self, topic: str = '') -> Points: ...
+    def contacts(self, topic: str = '') -> list[Contact]: ...
+    def close(self) -> None: ...
+
+
 class RobotApi(ABC):
     """
     One robot of a simulation: its odometry, its joint states, its sensors, and the ground truth.
@@ -70,6 +81,7 @@ class RobotApi(ABC):
     namespace: str
     command_topic: str
     """Of the controller that drives, or of a plugin of Gazebo; empty: there is none."""
+    _sensors: SensorReadings
 
     @abstractmethod
     def twist(self, linear: float, angular: float) -> Any:
@@ -95,25 +107,25 @@ class RobotApi(ABC):
         """What the robot's lidar sees at this instant; see :meth:`scan_of`."""
         return self.scan_of('')
 
-    @abstractmethod
     def scan_of(self, topic: str) -> Scan:
         """Return what the lidar with a topic sees at this instant, whatever its rate."""
+        return self._sensors.scan(topic)
 
-    @abstractmethod
     def image(self, topic: str = '') -> Image:
         """Return the colours that the camera, or that with a topic, sees at this instant."""
+        return self._sensors.image(topic)
 
-    @abstractmethod
     def depth(self, topic: str = '') -> Image:
         """Return the depths that the camera, or that with a topic, sees at this instant."""
+        return self._sensors.depth(topic)
 
-    @abstractmethod
     def points(self, topic: str = '') -> Points:
         """Return the cloud that the sensor, or that with a topic, sees at this instant."""
+        return self._sensors.points(topic)
 
-    @abstractmethod
     def contacts(self, topic: str = '') -> list[Contact]:
         """Return what touches the contact sensor, or that with a topic, at this instant."""
+        return self._sensors.contacts(topic)
 
     @property
     def is_moving(self) -> bool:

@@ -20,7 +20,7 @@ from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.api import RobotApi
 from amr_description.simulation.local_manager import LocalManager
 from amr_description.simulation.plain_controllers import Newest
-from amr_description.simulation.readings import Contact, Image, Joint, Joints, Motion, Points, Scan
+from amr_description.simulation.readings import Joint, Joints, Motion
 from amr_description.simulation.sensors import RobotSensors
 from amr_description.simulation.spawned_controllers import BROADCASTER, Topics
 from amr_description.simulation.tracebacks import is_for_the_test
@@ -87,26 +87,6 @@ class Robot(RobotApi):
         sample: JointStateSample = self._newest(self._topics.joints, BROADCASTER)
         rows = zip(sample.name, sample.position, sample.velocity, sample.effort, strict=True)
         return Joints({name: Joint(*values) for name, *values in rows})
-
-    def scan_of(self, topic: str) -> Scan:
-        """Return what the lidar with a topic sees at this instant, whatever its rate."""
-        return self._sensors.scan(topic)
-
-    def image(self, topic: str = '') -> Image:
-        """Return the colours that the camera, or that with a topic, sees at this instant."""
-        return self._sensors.image(topic)
-
-    def depth(self, topic: str = '') -> Image:
-        """Return the depths that the camera, or that with a topic, sees at this instant."""
-        return self._sensors.depth(topic)
-
-    def points(self, topic: str = '') -> Points:
-        """Return the cloud that the sensor, or that with a topic, sees at this instant."""
-        return self._sensors.points(topic)
-
-    def contacts(self, topic: str = '') -> list[Contact]:
-        """Return what touches the contact sensor, or that with a topic, at this instant."""
-        return self._sensors.contacts(topic)
 
     def inputs(self, topic: str) -> Iterator[Input[Any]]:
         """Yield the inputs of its controllers with a topic, by its full name."""

@@ -23,7 +23,7 @@ from amr_description.model.robot import Robot as Description
 from amr_description.ros.log_thread import LoggerLog
 from amr_description.ros.messages import fill_pose
 from amr_description.simulation.api import namespace_of, RobotApi
-from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
+from amr_description.simulation.readings import Joint, Motion
 from amr_description.simulation.spawned_controllers import (
     BROADCASTER,
     spawn_declared,
@@ -89,26 +89,6 @@ class Robot(RobotApi):
     def joints(self) -> dict[str, Joint]:
         """The last state of each joint, by name, from the JointStateBroadcaster."""
         return joints_of(self._newest(self._joints, BROADCASTER))
-
-    def scan_of(self, topic: str) -> Scan:
-        """Return what the lidar with a topic sees at this instant, whatever its rate."""
-        return self._sensors.scan(topic)
-
-    def image(self, topic: str = '') -> Image:
-        """Return the colours that the camera, or that with a topic, sees at this instant."""
-        return self._sensors.image(topic)
-
-    def depth(self, topic: str = '') -> Image:
-        """Return the depths that the camera, or that with a topic, sees at this instant."""
-        return self._sensors.depth(topic)
-
-    def points(self, topic: str = '') -> Points:
-        """Return the cloud that the sensor, or that with a topic, sees at this instant."""
-        return self._sensors.points(topic)
-
-    def contacts(self, topic: str = '') -> list[Contact]:
-        """Return what touches the contact sensor, or that with a topic, at this instant."""
-        return self._sensors.contacts(topic)
 
     def silent_topics(self) -> list[str]:
         """Return the topics without a message since :meth:`forget`."""
