@@ -21,16 +21,7 @@ _WITHOUT_VALUE = ('--enable-', '--disable-')
 
 def ros_arguments(words: Sequence[str]) -> list[str]:
     """Return the ROS arguments among the words of a command line, without ``--ros-args``."""
-    found: list[str] = []
-    is_ros = False
-    for word in words:
-        if word == '--ros-args':
-            is_ros = True
-        elif word == '--':
-            is_ros = False
-        elif is_ros:
-            found.append(word)
-    return found
+    return [word for word, is_ros in _told_apart(words) if is_ros]
 
 
 def other_arguments(words: Sequence[str]) -> list[str]:
@@ -39,16 +30,19 @@ def other_arguments(words: Sequence[str]) -> list[str]:
 
     rclpy's ``remove_ros_args`` also takes ``name:=value`` away, the remapping rules of ROS 1.
     """
-    found: list[str] = []
+    return [word for word, is_ros in _told_apart(words) if not is_ros]
+
+
+def _told_apart(words: Sequence[str]) -> Iterator[tuple[str, bool]]:
+    """Yield each word but those that begin and end ROS arguments, and whether it is one."""
     is_ros = False
     for word in words:
         if word == '--ros-args':
             is_ros = True
         elif is_ros and word == '--':
             is_ros = False
-        elif not is_ros:
-            found.append(word)
-    return found
+        else:
+            yield word, is_ros
 
 
 def files_in(arguments: Sequence[str]) -> list[str]:
@@ -105,9 +99,7 @@ class NodeNames:
         for flag, *value in _flags(arguments):
             if flag not in _REMAPS or not value:
                 continue
-            given = value[0].replace('rostopic://', '')
-            rule = _remapped([given])
-            limit = given.removesuffix(rule).removesuffix(':')
+            limit, rule = _limited(value[0].replace('rostopic://', ''))
             before, sign, after = rule.partition(':=')
             if sign and limit in ('', name) and not before.startswith('__'):
                 self._rules.append((self.expanded(before), after))
@@ -139,8 +131,7 @@ def parameter_sources(arguments: Sequence[str]) -> Iterator[tuple[str, str, str]
         if flag == '--params-file' and value:
             yield '', '', value[0]
         elif flag in _PARAMETERS and value:
-            rule = _remapped(value)
-            limit = value[0].removesuffix(rule).removesuffix(':')
+            limit, rule = _limited(value[0])
             name, sign, given = rule.partition(':=')
             if sign:
                 yield f'/{limit}' if limit else '/**', name, given
@@ -155,7 +146,11 @@ def _flags(arguments: Sequence[str]) -> Iterator[list[str]]:
 
 
 def _remapped(value: Sequence[str]) -> str:
-    """The rule without the node that it may be limited to: ``amr:__ns:=/a`` is ``__ns:=/a``."""
-    rule = value[0] if value else ''
+    """The rule without the node that it may be limited to."""
+    return _limited(value[0])[1] if value else ''
+
+
+def _limited(rule: str) -> tuple[str, str]:
+    """The node that a rule is limited to, or '', and the rest: ``amr:__ns:=/a``."""
     node, colon, rest = rule.partition(':')
-    return rest if colon and not rest.startswith('=') else rule
+    return (node, rest) if colon and not rest.startswith('=') else ('', rule)

@@ -81,7 +81,7 @@ def udp_only() -> Iterator[None]:
         os.environ[_PROFILE_VARIABLES[0]] = str(PROFILE)
         yield
     else:
-        changes = _changes(os.environ.get(_LOCALHOST_ONLY), os.environ.get(_RANGE))
+        changes = _changes(os.environ)
         open_to_some = UDP_LOCALHOST if changes else UDP
         profile = UDP_LOOPBACK if is_closed(os.environ) else open_to_some
         os.environ[_PROFILE_VARIABLES[0]] = str(profile)
@@ -97,12 +97,13 @@ def udp_only() -> Iterator[None]:
                     os.environ[variable] = value
 
 
-def _changes(localhost_only: str | None, discovery_range: str | None) -> dict[str, str]:
+def _changes(environment: Mapping[str, str]) -> dict[str, str]:
     """What to tell rcl where the user keeps discovery on this host; elsewhere nothing."""
-    if localhost_only == '1':
+    if environment.get(_LOCALHOST_ONLY) == '1':
         return {_LOCALHOST_ONLY: '0', _RANGE: 'SYSTEM_DEFAULT', _PEERS: ''}
-    if discovery_range == 'LOCALHOST' or (discovery_range != 'OFF' and is_closed(os.environ)):
-        return {_RANGE: 'SUBNET' if os.environ.get(_PEERS) else 'SYSTEM_DEFAULT'}
+    discovery_range = environment.get(_RANGE)
+    if discovery_range == 'LOCALHOST' or (discovery_range != 'OFF' and is_closed(environment)):
+        return {_RANGE: 'SUBNET' if environment.get(_PEERS) else 'SYSTEM_DEFAULT'}
     return {}
 
 
