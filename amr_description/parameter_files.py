@@ -177,14 +177,14 @@ class _Loader(yaml.SafeLoader):
 
     def compose_node(self, parent: yaml.Node | None, index: int) -> yaml.Node | None:
         """Refuse what rcl does not read, with its place; have a plain scalar be known as one."""
-        if self.check_event(yaml.AliasEvent) and not self.reads_aliases:
+        if self.check_event(yaml.AliasEvent):
+            if self.reads_aliases:
+                return super().compose_node(parent, index)
             event = self.peek_event()
             raise yaml.composer.ComposerError(
                 None, None, f"ROS reads no aliases, as '*{event.anchor}'; write the value out",
                 event.start_mark,
             )  # fmt: skip
-        if self.check_event(yaml.AliasEvent):
-            return super().compose_node(parent, index)
         node = super().compose_node(parent, index)
         if isinstance(node, yaml.ScalarNode):
             is_key = isinstance(parent, yaml.MappingNode) and index is None

@@ -115,10 +115,9 @@ class OnStateTransition(Handler):
 
     def is_of(self, done: Transition) -> bool:
         """Return whether it waits for the success of a transition."""
-        wanted = (self.start_state, self.goal_state, self.transition)
-        found = (done.during, done.goal)
-        labels = (None, done.label, 'transition_success', f'on_{done.label}_success')
+        labels = (done.label, 'transition_success', f'on_{done.label}_success')
         return (
-            all(want in (None, is_) for want, is_ in zip(wanted, found, strict=False))
-            and wanted[2] in labels
+            self.start_state in (None, done.during)
+            and self.goal_state in (None, done.goal)
+            and self.transition in (None, *labels)
         )
