@@ -81,8 +81,9 @@ if __name__ == '__main__':
     try:
         changed = changed_paths(root)
     except (OSError, subprocess.CalledProcessError) as error:
+        said = (getattr(error, 'stderr', None) or str(error)).strip().splitlines()[-1]
         sys.exit(
-            f'scripts/test --changed: git does not know what has changed here: {error}; '
+            f'scripts/test --changed: git does not know what has changed here: {said}; '
             'name the tests instead, as in scripts/test unit'
         )
     print(*affected_tests(changed, root), sep='\n')

@@ -44,7 +44,8 @@ def key(checkout: Checkout) -> str:
         for name, version in sorted(pins.items())
         if name.startswith(COMPILED_AGAINST) and not NOT_COMPILED_AGAINST.match(name)
     ]
-    parser = f'{PARSER}=={pinned_versions(checkout.tools.read_text())[PARSER]}'
+    tools = pinned_versions(checkout.tools.read_text(), name=checkout.tools.name)
+    parser = f'{PARSER}=={tools[PARSER]}'
     files = [*stamps.files_below(checkout.interfaces), *builder_files(checkout.root)]
     sources = stamps.digest_files(files, checkout.root)
     python = sys.implementation.cache_tag or ''
@@ -60,7 +61,7 @@ def install_parser(checkout: Checkout, venv: Path, environment: Mapping[str, str
     """Install what reads ``.idl`` files, unless it is there."""
     target = venv / PARSER_FOLDER
     if not target.is_dir():
-        pins = pins_of(checkout.tools.read_text())
+        pins = pins_of(checkout.tools.read_text(), name=checkout.tools.name)
         pip_install(venv, [pins[PARSER]], environment, target)
 
 
@@ -141,7 +142,7 @@ def _with_tools(
     if check.returncode == NO_COMPILER:
         progress('no C++ compiler here; fetching zig from PyPI for this once (100 MB) ...')
         try:
-            pins = pins_of(checkout.tools.read_text())
+            pins = pins_of(checkout.tools.read_text(), name=checkout.tools.name)
             pip_install(venv, [pins[ZIG]], environment, tools)
         except SetupError as error:
             raise SetupError(f'{complaint}\n{error}') from None

@@ -24,7 +24,7 @@ PYTHONS = ((3, 12), (3, 13), (3, 14), (3, 11))
 WITHOUT_HASHES = ('engine.lock', 'engine-tests.lock')
 """Those of the simulation without ROS: they are for any system, each of which has other files."""
 
-_PIN = re.compile(r'([A-Za-z0-9._-]+)==(\S+)(?: *; *(python_version *(<|>=) *"3\.(\d+)"))?')
+_PIN = re.compile(r'([A-Za-z0-9._-]+)==(\S+)(?: *; *(python_version *(?:<|>=) *"3\.\d+"))?')
 _HASH = re.compile(r' +--hash=(sha256:[0-9a-f]{64})')
 
 
@@ -66,26 +66,32 @@ def parse(text: str, name: str = 'requirements.lock') -> Iterator[Pin | str]:
         yield Pin(match[1], match[2], match[3] or '', tuple(_HASH.findall(rest)))
 
 
-def pins_of(lock: str, python: tuple[int, int] | None = None) -> dict[str, Pin]:
+def pins_of(
+    lock: str, python: tuple[int, int] | None = None, *, name: str = 'requirements.lock'
+) -> dict[str, Pin]:
     """
     Return the pins for a Python, this one unless it is given, by their names.
+
+    ``name``: of the file.
 
     Raises SetupError, also when there are two for a name.
     """
     python = python or sys.version_info[:2]
     pins: dict[str, Pin] = {}
-    for pin in parse(lock):
+    for pin in parse(lock, name):
         if isinstance(pin, str) or not pin.is_for(python):
             continue
         if pin.name in pins:
-            raise SetupError(f'requirements.lock: want one version of {pin.name}, got two')
+            raise SetupError(f'{name}: want one version of {pin.name}, got two')
         pins[pin.name] = pin
     return pins
 
 
-def pinned_versions(lock: str, python: tuple[int, int] | None = None) -> dict[str, str]:
+def pinned_versions(
+    lock: str, python: tuple[int, int] | None = None, *, name: str = 'requirements.lock'
+) -> dict[str, str]:
     """Return name → version for a Python, this one unless it is given. Raises SetupError."""
-    return {name: pin.version for name, pin in pins_of(lock, python).items()}
+    return {name: pin.version for name, pin in pins_of(lock, python, name=name).items()}
 
 
 def canonical(name: str) -> str:

@@ -64,6 +64,8 @@ def check_hosts(environment: Mapping[str, str]) -> None:
     from urllib.request import getproxies, proxy_bypass
 
     configured = _configured(environment)
+    if configured is None:  # a mirror may be named where only the pip to come reads it
+        return
     index = urlsplit(index_of(environment, configured))
     host = index.hostname
     no_index = environment.get('PIP_NO_INDEX') or configured.get('no-index', '')
@@ -87,13 +89,19 @@ def check_hosts(environment: Mapping[str, str]) -> None:
         ) from None
 
 
-def _configured(environment: Mapping[str, str]) -> dict[str, str]:
-    """Return what the files of pip say of all its commands, and of installing above that."""
+def _configured(environment: Mapping[str, str]) -> dict[str, str] | None:
+    """
+    Return what the files of pip say of all its commands, and of installing above that.
+
+    None: this Python has no pip that could say it.
+    """
     import subprocess
     import sys
 
     command = [sys.executable, '-m', 'pip', 'config', 'list']
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    if done.returncode:
+        return None
     said: dict[str, dict[str, str]] = {'global': {}, 'install': {}}
     for line in done.stdout.splitlines():
         name, _, value = line.partition('=')

@@ -51,7 +51,7 @@ def test_what_git_does_not_know_is_one_line(tmp_path):
     )
     assert (ended.returncode, ended.stdout) == (1, '')
     (line,) = ended.stderr.splitlines()
-    assert 'git does not know what has changed here' in line
+    assert 'git does not know what has changed here: fatal: not a git repository' in line
 
 
 def test_committed_edited_and_new_files_count(tmp_path):

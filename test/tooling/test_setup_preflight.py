@@ -70,6 +70,12 @@ def test_what_pip_is_configured_to_do_is_done(listening, tmp_path, capsys):
     assert capsys.readouterr().err == ''
 
 
+def test_where_no_pip_says_its_index_none_is_asked(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(sys, 'executable', '/bin/false')
+    preflight.check_hosts({'HOME': str(tmp_path)})
+    assert capsys.readouterr().err == ''
+
+
 def test_an_index_of_files_needs_no_host(tmp_path, capsys):
     preflight.check_hosts({'PIP_INDEX_URL': tmp_path.as_uri()})
     assert capsys.readouterr().err == ''
