@@ -23,7 +23,7 @@ def text(version: str, pins: Iterable[Pin], epoch: int) -> str:
         epoch: the time of the commit, s.
     """
     components = [_component(pin) for pin in sorted(pins)]
-    own = {canonical(each['name']): each['bom-ref'] for each in components}.get(_NAME)
+    own = next(each['bom-ref'] for each in components if each['name'] == _NAME)
     contents = json.dumps(components, sort_keys=True)
     bill = {
         'bomFormat': 'CycloneDX',
@@ -42,9 +42,9 @@ def text(version: str, pins: Iterable[Pin], epoch: int) -> str:
         },
         'components': components,
         'dependencies': [
-            {'ref': 'release', 'dependsOn': [own] if own else []},
+            {'ref': 'release', 'dependsOn': [own]},
             {'ref': own, 'dependsOn': [e['bom-ref'] for e in components if e['bom-ref'] != own]},
-        ][: 2 if own else 1],
+        ],
     }
     return json.dumps(bill, indent=2) + '\n'
 
