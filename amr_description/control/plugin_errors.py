@@ -48,7 +48,7 @@ def place_of(error: BaseException) -> str:
 
 
 def log_error(log: Log, error: Exception) -> str:
-    """Log an error in one line, and its traceback at DEBUG; return the line."""
+    """Log an error in one line, and its traceback, :func:`log_traceback`; return the line."""
     line = unwrap(describe(error))
     log(Severity.ERROR, line)
     log_traceback(log, error)
@@ -60,6 +60,11 @@ def log_traceback(log: Log, error: Exception) -> None:
     severity = Severity.DEBUG if isinstance(error, AmrError) else Severity.ERROR
     text = ''.join(traceback.format_exception(error))
     log(severity, text.rstrip(), throttle=_TRACEBACK_PERIOD)
+
+
+def is_traceback(text: str) -> bool:
+    """Return whether a line of the log is a traceback, beside the line that has the reason."""
+    return 'Traceback (most recent call last):' in text.partition('\n')[0]
 
 
 def _text_of(error: Exception) -> str:

@@ -13,7 +13,7 @@ class Throttle:
     """Lets lines of one format through once in a while; those equal up to a digit are of one."""
 
     def __init__(self, clock: Callable[[], float]) -> None:
-        """``clock``: the wall clock, s."""
+        """``clock``: s; it never goes back."""
         self._clock = clock
         self._latest: dict[str, float] = {}
 

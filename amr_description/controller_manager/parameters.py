@@ -9,6 +9,7 @@ The tables of :mod:`amr_description.control.manager_parameters` say what there i
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+import os
 from pathlib import Path
 
 from amr_description.control.contracts import Log, Severity
@@ -89,7 +90,7 @@ class ManagerParameters:
                 if causes
                 else f"The 'type' param was not defined for '{name}'. Controllers with a type in "
                 f'the parameters of {self.store.node}: '
-                f'{", ".join(self._typed_controllers()) or "none"}'
+                f'{", ".join(self.typed_controllers()) or "none"}'
             )
         prefix = f'{name}.'
         self.store.declare(ControllerEntry, prefix=prefix)
@@ -104,7 +105,8 @@ class ManagerParameters:
         Raises ParameterError: a file cannot be read.
         """
         for path in map(Path, entry.params_file):
-            if path.exists() and not path.is_file():  # a request may name a pipe without end
+            # A request may name a pipe without end. (``Path.exists()`` would raise.)
+            if os.path.exists(path) and not os.path.isfile(path):
                 raise ParameterError(f"parameter file '{path}': it is no regular file")
             read_parameter_file(path)  # rcl would not say where it is wrong
         uses_sim_time = self.store.value('use_sim_time')
@@ -171,7 +173,8 @@ class ManagerParameters:
             ),
         )
 
-    def _typed_controllers(self) -> list[str]:
+    def typed_controllers(self) -> list[str]:
+        """Return the names of those that have a type, sorted."""
         return sorted(
             name.removesuffix('.type') for name in self.store.names() if name.endswith('.type')
         )

@@ -11,7 +11,6 @@ from amr_description.former_parameters import understand
 from amr_description.parameter_files import (
     content_of,
     dotted,
-    EVERY_NODE,
     flatten,
     load_yaml,
     read_parameter_file,
@@ -49,7 +48,7 @@ def given_parameters(node: str, arguments: Sequence[str]) -> dict[str, Any]:
                 values |= {dotted(keys): value for keys, value in flatten(section.parameters)}
     found: dict[str, Any] = {}
     for pattern, values in collected.items():
-        if pattern == EVERY_NODE or Section((pattern,), values).is_of(node):
+        if Section((pattern,), values).is_of(node):
             found |= {name: value for name, value in values.items() if value is not None}
     return found
 

@@ -3,19 +3,17 @@
 """What parameter files say of a controller that is to be spawned."""
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from amr_description.errors import ParameterError
 from amr_description.parameter_files import EVERY_NODE, read_parameter_file, sections
-from amr_description.ros_arguments import ros_arguments
+from amr_description.ros_arguments import files_in, ros_arguments
 
 
 def files_in_arguments(words: Sequence[str]) -> list[str]:
     """Return the files behind ``--params-file`` among the ROS arguments of a command line."""
-    pairs = pairwise(ros_arguments(words))
-    return [str(Path(file).absolute()) for flag, file in pairs if flag == '--params-file']
+    return [str(Path(file).absolute()) for file in files_in(ros_arguments(words))]
 
 
 def controller_entries(

@@ -175,10 +175,10 @@ class LocalManager:
 
     def reasons(self, controller: str) -> str:
         """Return why the last load failed."""
-        names = self.parameters.store.names()
-        typed = sorted(name.removesuffix('.type') for name in names if name.endswith('.type'))
         cause = self.logged(controller)
-        return cause if self.has_type(controller) else reason_of(self, controller, cause, typed)
+        if self.has_type(controller):
+            return cause
+        return reason_of(self, controller, cause, self.parameters.typed_controllers())
 
     def logged(self, *nodes: str) -> str:
         """Return what it, and nodes beside it, have logged as errors since the last request."""

@@ -14,6 +14,7 @@ import logging
 import time as wall
 
 from amr_description.control.contracts import Log, Severity
+from amr_description.control.plugin_errors import is_traceback
 from amr_description.control.throttle import Throttle
 
 logging.getLogger('amr_description').addHandler(logging.NullHandler())
@@ -64,6 +65,10 @@ class LogLines:
         names = {node.strip('/').replace('/', '.') for node in nodes}
         newest = [*self._lines][max(0, len(self._lines) - (self.count - count)) :]
         found = (
-            each.text for each in newest if each.severity >= Severity.ERROR and each.node in names
+            each.text
+            for each in newest
+            if each.severity >= Severity.ERROR
+            and each.node in names
+            and not is_traceback(each.text)
         )
         return list(dict.fromkeys(found))

@@ -21,6 +21,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
+from amr_description.control.plugin_errors import is_traceback
 from amr_description.errors import NoAnswerError
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.qos import CLOCK
@@ -290,6 +291,7 @@ def errors_of(node: Node, names: Sequence[str], since: float = 0.0) -> list[str]
                 for message in messages
                 if message.level >= Log.ERROR
                 and message.name in loggers
+                and not is_traceback(message.msg)
                 and nanoseconds(message.stamp) >= since * NANOSECONDS
             ]
 

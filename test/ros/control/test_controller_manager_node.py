@@ -210,6 +210,7 @@ def test_a_parameter_that_is_ignored_is_warned_of_before_the_controller_runs(ros
     [
         ({'params_file': 'missing.yaml'}, "parameter file 'missing.yaml': No such file"),
         ({'params_file': ['broken.yaml']}, 'broken.yaml:1:'),
+        ({'params_file': 'x' * 300}, "x': File name too long"),
         ({'node_options_args': ['--ros-args', '-r', 'nonsense']}, 'nonsense'),
         ({'node_options_args': ['-p', 'update_rate:=-1']}, "'update_rate' must be at least 0"),
     ],
