@@ -23,7 +23,8 @@ from typing import Any
 
 import yaml
 
-from amr_description.errors import ParameterError
+from amr_description.ament_index import path_of
+from amr_description.errors import ParameterError, ResourceError, SimulationError
 from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
 from amr_description.model.gazebo_sensor_tags import topic_part
 from amr_description.model.sensors import WorldSensor
@@ -77,6 +78,24 @@ class Bridge:
 
 NO_BRIDGE = Bridge()
 """Topics as they are usually bridged."""
+
+
+def bridge_of(file: str) -> Bridge:
+    """
+    Return what topics are called in ROS.
+
+    Args:
+        file: the parameter ``bridge`` of a simulation: a path or ``package://`` URI; '': none.
+
+    Raises:
+        SimulationError: it is no such file.
+    """
+    if not file:
+        return NO_BRIDGE
+    try:
+        return read_bridge(path_of(file, 'bridge'))
+    except (ParameterError, ResourceError) as error:
+        raise SimulationError(str(error)) from error
 
 
 def read_bridge(path: Path) -> Bridge:

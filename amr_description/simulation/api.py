@@ -37,7 +37,7 @@ from amr_description.errors import SimulationError
 from amr_description.model.controller_files import files_of, manager_of
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_bridge import Bridge, NO_BRIDGE, read_bridge
+from amr_description.model.gazebo_bridge import bridge_of
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot as Description
 from amr_description.model.ros2_control_tag import hardware_of
@@ -230,7 +230,7 @@ class SimulationApi(ABC, Generic[RobotType]):
             self._robot_model = parse_urdf(self._description)
             self._is_controlled = bool(hardware_of(translate(self._robot_model).robot))
             self._files = self._parameter_files()
-            self._bridge = self._read_bridge()
+            self._bridge = bridge_of(str(self._parameters.get('bridge', '')))
             self._robots.clear()
             self._is_running = True
             stack.callback(self._stop)
@@ -240,6 +240,7 @@ class SimulationApi(ABC, Generic[RobotType]):
             self._begin()
             if self._record is not None:
                 self.record(self._record)
+            self._started()
             self._stack = stack.pop_all()
 
     def close(self) -> None:
@@ -267,13 +268,12 @@ class SimulationApi(ABC, Generic[RobotType]):
             return [Path(given)]
         return files_of(self._robot_model)
 
-    def _read_bridge(self) -> Bridge:
-        given = str(self._parameters.get('bridge', ''))
-        return read_bridge(path_of(given)) if given else NO_BRIDGE
-
     @abstractmethod
     def _start(self, stack: ExitStack) -> None:
         """Make the simulator, whose time stands at 0; ``stack``: has what ends it."""
+
+    def _started(self) -> None:
+        """Do what is left to do once all is there; if it fails, all ends."""
 
     @abstractmethod
     def _begin(self) -> None:

@@ -82,9 +82,10 @@ class Simulation(SimulationApi[Robot]):
 
     def _end(self) -> None:
         """Stop the motors; hardware and controllers of others may have what has to be closed."""
-        for manager in self._loop.managers:
-            manager.shut_down(self._loop.time)
-        self._instruments.close()
+        with ExitStack() as ending:  # whatever one raises, the next one has to be stopped too
+            ending.callback(self._instruments.close)
+            for manager in reversed(self._loop.managers):
+                ending.callback(manager.shut_down, self._loop.time)
 
     # --- robots -------------------------------------------------------------------------------
 

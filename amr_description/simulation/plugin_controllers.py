@@ -28,20 +28,20 @@ async def start_controllers(
     """
     Load, configure and activate controllers, in this order, on the thread of their manager.
 
+    One that cannot be started is logged; the robot and the others work without it, as in Gazebo.
+
     Args:
         requests: Of the manager.
         controllers: To be started.
         namespace: Of the manager.
         log: Of the simulator.
-
-    One that cannot be started is logged; the robot and the others work without it, as in Gazebo.
     """
     store = requests.parameters.store
     for each in controllers:
-        store.set(f'{each.name}.type', each.type)
         arguments = node_arguments(each, namespace, requests.manager.update_rate)
-        store.set(f'{each.name}.node_options_args', arguments)
         try:
+            store.set(f'{each.name}.type', each.type)
+            store.set(f'{each.name}.node_options_args', arguments)
             await requests.load(each.name)
             await requests.configure(each.name)
             await requests.switch([each.name], [], Strictness.STRICT, _SWITCH_TIMEOUT)

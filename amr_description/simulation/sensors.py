@@ -48,9 +48,10 @@ class SensorTopics:
             namespace: Of its topics, absolute.
         """
         self._name, self._namespace = name, namespace
-        self.sensors = {topic: sensor for topic, _, sensor in _topics_of(sensors, namespace)}
+        found = [*_topics_of(sensors, namespace)]
+        self.sensors = {topic: sensor for topic, _, sensor in found}
         """By the full names of their topics."""
-        self.kinds = {topic: kind for topic, kind, _ in _topics_of(sensors, namespace)}
+        self.kinds = {topic: kind for topic, kind, _ in found}
         """Types of messages; of depths :data:`DEPTH`."""
 
     def chosen(self, kinds: Sequence[str], topic: str) -> str:

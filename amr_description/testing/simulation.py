@@ -71,9 +71,7 @@ class Simulation(SimulationApi[Robot]):
         self._readings = _node('simulation_readings', context)
         stack.callback(self._readings.destroy_node)
 
-    def start(self) -> None:
-        """Start, as ``with`` does; :meth:`close` has to be called then."""
-        super().start()
+    def _started(self) -> None:
         bags.begin(self.recording)
 
     def enter_domain(self) -> None:

@@ -29,6 +29,7 @@ from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import WallPacer
+from amr_description.model.gazebo_bridge import bridge_of
 from amr_description.parameters import specs
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
@@ -41,7 +42,7 @@ from amr_description.sim.ros.run_recording import controllers_text, on_loop, Run
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
-from amr_description.simulation.worlds import bridge_of, world_of
+from amr_description.simulation.worlds import world_of
 
 PAUSED_CLOCK_PERIOD = 0.1
 """s of the wall clock between two messages on ``/clock`` while paused."""
@@ -145,7 +146,7 @@ class Simulation:
             executor=self._executor,
             log=self.log,
             controllers=self.parameters.controllers,
-            bridge=bridge_of(self.parameters),
+            bridge=bridge_of(self.parameters.bridge),
             simulates_mocks=self.parameters.mock_hardware == 'simulate',
             lift=self.parameters.lift,
             ros_args=ros_args,

@@ -11,10 +11,12 @@ import amr_description
 from amr_description import Simulation
 from amr_description.control.contracts import Controller, Input, Output, Port
 from amr_description.control.interfaces import InterfaceRequest
+from amr_description.control.plugin_errors import log_error
 from amr_description.control.samples import CommandsSample, OdometrySample, TwistSample
 from amr_description.errors import AmrError, SimulationError
 from amr_description.model.frames import Transform
 from amr_description.parameters import parameter
+from amr_description.simulation.log_lines import LogLines
 
 URDF = ROOT / 'urdf' / 'amr.urdf'
 CMD_VEL = '/diff_drive_controller/cmd_vel'
@@ -37,6 +39,38 @@ def test_the_package_exports_it_and_nothing_else():
     assert Simulation.__module__ == 'amr_description.simulation.in_process'
     with pytest.raises(AttributeError, match="has no attribute 'Nothing'"):
         _ = amr_description.Nothing
+
+
+def test_a_reason_is_what_was_logged_without_its_traceback():
+    lines = LogLines()
+    try:
+        raise KeyError('left')
+    except KeyError as error:
+        reason = log_error(lines.log_of('/arm'), error)
+    assert lines.count == 2
+    assert lines.errors_since(0, ['/arm']) == [reason]
+
+
+def test_a_bridge_that_is_none_is_said():
+    sim = Simulation(URDF, parameters={'bridge': 'none.yaml'})
+    with pytest.raises(SimulationError, match='none.yaml'):
+        sim.start()
+
+
+def test_what_one_raises_at_its_end_keeps_nobody_from_theirs(monkeypatch):
+    ended = []
+
+    def shut_down(_time):
+        ended.append('manager')
+        raise RuntimeError('of a plugin')
+
+    sim = Simulation(URDF)
+    sim.start()
+    monkeypatch.setattr(sim._loop.managers[0], 'shut_down', shut_down)
+    monkeypatch.setattr(sim._instruments, 'close', lambda: ended.append('instruments'))
+    with pytest.raises(RuntimeError, match='of a plugin'):
+        sim.close()
+    assert ended == ['manager', 'instruments']
 
 
 def test_a_command_is_a_sample_and_acts_from_the_next_step_on(sim):
