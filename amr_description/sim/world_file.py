@@ -67,6 +67,7 @@ _SOLVERS = {
 
 _MOST_REPLICAS = 5_000
 """MuJoCo takes over 15 s to read a hundred thousand."""
+_COMMENT = re.compile('<!--.*?-->', re.DOTALL)
 _REPLICATE = re.compile(r'<replicate\b[^>]*?\bcount="\s*(\d{1,18})\s*"[^>]*>|(</replicate\s*>)')
 
 MEASURED_OPTIONS = (
@@ -170,7 +171,11 @@ def load_world(world: str, settings: WorldSettings = _FILE_SETTINGS) -> mujoco.M
 
 def _check_replicas(world: str, path: Path) -> None:
     """Raise SimulationError: ``<replicate>`` would make more bodies than can be simulated."""
-    text = path.read_text('utf-8', errors='replace')
+    try:
+        text = path.read_text('utf-8', errors='replace')
+    except OSError as error:
+        raise SimulationError(f"world '{world}': {path}: {error.strerror}") from error
+    text = _COMMENT.sub('', text)
     counts: list[int] = []
     total = 0
     for count, end in _REPLICATE.findall(text):

@@ -49,7 +49,7 @@ from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, SimulationState
-from amr_description.sim.ros.trusted_files import distrust, is_folder
+from amr_description.sim.ros.trusted_files import distrust, folder_of
 
 FEATURES = (
     SimulatorFeatures.NAMED_POSES,
@@ -329,17 +329,7 @@ def _file_of(uri: str) -> str:
 
 def _worlds_in(source: str) -> list[Path]:
     """Return the MJCF files of a folder. Raises RequestError."""
-    try:
-        folder = resolve_uri(source)
-    except ResourceError as error:
-        raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
-    if not is_folder(folder):
-        raise RequestError(
-            f"source '{source}' is no folder; package://<package>/<folder>, file:// or a path "
-            'will do',
-            Result.RESULT_NOT_FOUND,
-        )
-    return sorted(folder.glob('*.xml'))
+    return sorted(folder_of(source).glob('*.xml'))
 
 
 def _resource(path: Path) -> WorldResource:

@@ -17,7 +17,7 @@ from simulation_interfaces.srv import (
     SpawnEntity,
 )
 
-from amr_description.ament_index import OWN_PACKAGE, resolve_uri
+from amr_description.ament_index import OWN_PACKAGE
 from amr_description.control.contracts import Severity
 from amr_description.control.plugin_errors import log_error
 from amr_description.entry import python_command
@@ -42,7 +42,7 @@ from amr_description.ros.runtime import run_in_thread
 from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
-from amr_description.sim.ros.trusted_files import distrust, is_folder
+from amr_description.sim.ros.trusted_files import distrust, folder_of
 from amr_description.sim.spawn_cost import announce, cost_of
 from amr_description.sim.spawning import read_description, SpawnCode
 from amr_description.text import plain_name, unwrap
@@ -134,16 +134,7 @@ class SpawnServices:
     ) -> None:
         """List the URDF and xacro files of folders, by default that of this package."""
         for source in request.sources or _SOURCES:
-            try:
-                folder = resolve_uri(source)
-            except ResourceError as error:
-                raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
-            if not is_folder(folder):
-                raise RequestError(
-                    f"source '{source}' is no folder; package://<package>/<folder>, file:// or a "
-                    'path will do',
-                    Result.RESULT_NOT_FOUND,
-                )
+            folder = folder_of(source)
             response.spawnables += [
                 Spawnable(uri=f'{source.rstrip("/")}/{path.name}', description=path.stem)
                 for path in sorted(folder.iterdir())
@@ -181,19 +172,19 @@ class SpawnServices:
             if not takes_arguments(uri):
                 return description_at(uri, warn=self._node.get_logger().warning)
             return await self._expanded(path, query)
-        except (DescriptionError, LimitError, ResourceError, SimulationError) as error:
+        except (DescriptionError, ResourceError, SimulationError) as error:
             raise SpawnError(f"uri '{uri}': {error}", SpawnCode.NO_RESOURCE) from error
 
     async def _expanded(self, path: Path, query: str) -> str:
-        """Return what a xacro file expands to, in a child. Raises DescriptionError, LimitError."""
+        """Return what a xacro file expands to, in a child. Raises DescriptionError."""
         given = parse_qsl(query, keep_blank_values=True)
         words = [*_EXPAND, str(path), *(f'{name}:={value}' for name, value in given)]
-        found: list[Ended | LimitError] = []
+        found: list[Ended | LimitError | OSError] = []
 
         def run() -> None:
             try:
                 found.append(run_limited(words, _LIMITS))
-            except LimitError as error:
+            except (LimitError, OSError) as error:
                 found.append(error)
 
         assert self._node.executor is not None, 'it serves this request'
@@ -201,10 +192,12 @@ class SpawnServices:
         ended = found[0]
         if isinstance(ended, LimitError):
             raise DescriptionError(f'xacro: {ended}; does an expression of it end?') from ended
-        *others, last = ended.log.splitlines() or [f'exit code {ended.code}']
+        if isinstance(ended, OSError):
+            raise DescriptionError(f'xacro: {ended}') from ended
+        lines = ended.log.splitlines()
         if ended.code:
-            raise DescriptionError(last)
-        for line in (*others, *([last] if ended.log else [])):
+            raise DescriptionError(lines[-1] if lines else f'exit code {ended.code}')
+        for line in lines:
             self._node.get_logger().warning(line.removeprefix('warning: '))
         return with_absolute_paths(ended.text, path.parent)
 

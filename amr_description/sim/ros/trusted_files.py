@@ -12,11 +12,29 @@ import os
 from pathlib import Path
 from stat import S_ISREG
 
-from amr_description.ament_index import prefixes
+from simulation_interfaces.msg import Result
+
+from amr_description.ament_index import prefixes, resolve_uri
+from amr_description.errors import RequestError, ResourceError
 from amr_description.ownership import changed_by_others
 
 
-def is_folder(path: Path) -> bool:
+def folder_of(source: str) -> Path:
+    """Return the folder that a request names. Raises RequestError."""
+    try:
+        folder = resolve_uri(source)
+    except ResourceError as error:
+        raise RequestError(str(error), Result.RESULT_NOT_FOUND) from error
+    if not _is_folder(folder):
+        raise RequestError(
+            f"source '{source}' is no folder; package://<package>/<folder>, file:// or a path "
+            'will do',
+            Result.RESULT_NOT_FOUND,
+        )
+    return folder
+
+
+def _is_folder(path: Path) -> bool:
     """Return whether there is a folder; a name that none can have, of 3,000 letters, is none."""
     try:
         return path.is_dir()

@@ -70,3 +70,24 @@ def test_some_copies_are_made(tmp_path):
         '<replicate count="10" offset="0 1 0"><geom size=".1"/></replicate></worldbody></mujoco>'
     )
     assert len(load_world(str(path)).geoms) == 20
+
+
+def test_copies_in_a_comment_are_none(tmp_path):
+    path = tmp_path / 'a.xml'
+    path.write_text(
+        '<mujoco><!-- <replicate count="100000"> --><worldbody><geom size=".1"/></worldbody>'
+        '</mujoco>'
+    )
+    assert len(load_world(str(path)).geoms) == 1
+
+
+def test_a_world_that_cannot_be_read_is_one_line(tmp_path, monkeypatch):
+    path = tmp_path / 'a.xml'
+    path.write_text('<mujoco/>')
+
+    def refused(*_args, **_options):
+        raise PermissionError(13, 'Permission denied')
+
+    monkeypatch.setattr(type(path), 'read_text', refused)
+    with pytest.raises(SimulationError, match=r"^world '.*a.xml': .*a.xml: Permission denied$"):
+        load_world(str(path))

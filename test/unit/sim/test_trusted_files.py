@@ -7,7 +7,8 @@ import os
 import pytest
 from support.needs import need
 
-from amr_description.sim.ros.trusted_files import distrust, is_folder
+from amr_description.errors import RequestError
+from amr_description.sim.ros.trusted_files import distrust, folder_of
 
 OTHER = 65534
 
@@ -74,6 +75,7 @@ def test_files_of_packages_are_everybodys(file, monkeypatch):
 
 @pytest.mark.parametrize('name', ['none', 'x' * 3000, 'a\0b'])
 def test_a_folder_that_cannot_be_is_none(tmp_path, name):
-    assert is_folder(tmp_path)
-    assert not is_folder(tmp_path / name)
+    assert folder_of(str(tmp_path)) == tmp_path
+    with pytest.raises(RequestError):
+        folder_of(str(tmp_path / name))
     assert distrust(tmp_path / name) == ''
