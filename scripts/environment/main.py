@@ -10,7 +10,6 @@ import sys
 import time
 
 from . import (
-    debian,
     host,
     interface_wheel,
     launchers,
@@ -60,8 +59,10 @@ def update_environment(checkout: Checkout, environment: Mapping[str, str]) -> bo
     return stale
 
 
-def _make_environment(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
-    """Install all packages, and build the interfaces meanwhile, which takes longer."""
+def _begin_environment(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
+    """Make an environment with what the interfaces are built with."""
+    from . import debian
+
     lock, cache = checkout.requirements, cache_folder(environment)
     lacks, extras = debian.lacking(), debian.Extras(cache)
     extras.fetch(lacks, environment)
@@ -71,6 +72,12 @@ def _make_environment(checkout: Checkout, venv: Path, environment: Mapping[str, 
     if 'Python.h' in lacks:
         extras.copy_headers(venv / 'include' / debian.VERSION)
     virtual_environment.begin(venv, lock, environment, interface_wheel.NEEDED_TO_BUILD)
+
+
+def _make_environment(checkout: Checkout, venv: Path, environment: Mapping[str, str]) -> None:
+    """Install all packages, and build the interfaces meanwhile, which takes longer."""
+    lock, cache = checkout.requirements, cache_folder(environment)
+    _begin_environment(checkout, venv, environment)
     with beside(lambda: interface_wheel.built(checkout, venv, cache, environment)):
         virtual_environment.complete(venv, lock, environment)
 
@@ -81,9 +88,8 @@ def interfaces_of_this_python(checkout: Checkout, environment: Mapping[str, str]
 
     cache = cache_folder(environment)
     with tempfile.TemporaryDirectory(prefix='amr-release-') as scratch:
-        venv, lock = Path(scratch, '.venv'), checkout.requirements
-        virtual_environment.create(venv, environment)
-        virtual_environment.begin(venv, lock, environment, interface_wheel.NEEDED_TO_BUILD)
+        venv = Path(scratch, '.venv')
+        _begin_environment(checkout, venv, environment)
         return interface_wheel.built(checkout, venv, cache, environment)
 
 

@@ -29,7 +29,7 @@ DEVELOPMENT = (
 )
 """What only the tests and the code of this project need."""
 _HEAD = """\
-# amr_description {version} and all that it needs, for CPython 3.11 to 3.14 on x86-64 Linux with
+# amr_description {version} and all that it needs, for CPython {pythons} on x86-64 Linux with
 # glibc 2.28 or later.
 # The wheels of the release lie beside this file; the others come from PyPI.
 #     python3 -m venv ros
@@ -69,7 +69,7 @@ def wheels_from_sources(
     return sorted(folder.glob('*.whl'))
 
 
-def requirements_text(version: str, pins: Iterable[Pin], name: str) -> str:
+def requirements_text(version: str, pins: Iterable[Pin], name: str, pythons: str) -> str:
     """
     Return the text of the file that pip reads.
 
@@ -77,5 +77,7 @@ def requirements_text(version: str, pins: Iterable[Pin], name: str) -> str:
         version: that is released.
         pins: of everything, the wheels of the release first.
         name: of the file, for its head.
+        pythons: that there are wheels of the interfaces for: ``3.12, 3.13``.
     """
-    return _HEAD.format(version=version, name=name) + ''.join(f'{pin.text()}\n' for pin in pins)
+    head = _HEAD.format(version=version, name=name, pythons=pythons)
+    return head + ''.join(f'{pin.text()}\n' for pin in pins)

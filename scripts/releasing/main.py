@@ -100,13 +100,14 @@ def release(
         own += [wheel for wheel, _, _ in interfaces]
         own += _from_sources(checkout, fresh, epoch, environment)
         pins = _pins(checkout, own)
-        text = locks.requirements_text(version, pins, REQUIREMENTS)
+        pythons = ', '.join(sorted(map(_python_of, built)))
+        text = locks.requirements_text(version, pins, REQUIREMENTS, pythons)
         (fresh / REQUIREMENTS).write_text(text, encoding='utf-8')
         (fresh / SBOM).write_text(sbom.text(version, pins, epoch), encoding='utf-8')
         _, needs, compilers = interfaces[0]
         notes = _NOTES.format(
             version=version,
-            pythons=', '.join(sorted(map(_python_of, built))),
+            pythons=pythons,
             draft=' (draft)' if options.draft else '',
             changes=section.text,
             sums=SUMS,

@@ -304,7 +304,7 @@ def test_requirements_have_a_version_and_a_hash_each():
         Pin('a', '1', '', ('sha256:0a', 'sha256:0b')),
         Pin('b', '2', 'python_version < "3.12"'),
     ]
-    text = locks.requirements_text('0.2.0', pins, 'r.txt')
+    text = locks.requirements_text('0.2.0', pins, 'r.txt', '3.12, 3.13')
     lines = [line for line in text.splitlines() if not line.startswith('#')]
     assert lines == [
         '--find-links .',
@@ -315,6 +315,7 @@ def test_requirements_have_a_version_and_a_hash_each():
         'b==2 ; python_version < "3.12"',
     ]
     assert 'pip install --no-deps -r r.txt' in text
+    assert 'for CPython 3.12, 3.13 on x86-64' in text
 
 
 def test_a_folder_with_other_things_is_not_replaced(tmp_path):
