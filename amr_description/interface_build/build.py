@@ -94,11 +94,11 @@ def _generate(
     """
     Write the sources of all packages.
 
-    The definitions are parsed once, here: the workers that write code are forked after that.
+    The definitions are parsed once: the workers that write code are forked after that.
     """
+    generators.parse_each_file_once(work / 'parsed')
     with _workers(_begin_to_generate) as pool:
         _finish(pool.submit(generators.write_idl, package) for package in generated)
-    generators.parse_each_file_once(work / 'parsed')
     with _quiet():
         for number, package in enumerate(generated):
             generators.write_type_descriptions(package, generated[:number], underlay)
@@ -125,7 +125,7 @@ def _begin_work() -> None:
 
 def _begin_to_generate() -> None:
     _begin_work()
-    generators.scan_templates_quickly()
+    generators.read_templates_once()
 
 
 @contextmanager

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The build of interface packages: what it finds, in which order, and what it says of faults."""
 
+import io
 from pathlib import Path
 import subprocess
 import sys
 import sysconfig
+from unittest import mock
 
 import em
 from environment import interface_wheel
@@ -204,20 +206,50 @@ def test_what_is_called_is_linked_before_its_caller(folder, tmp_path):
     assert len(made) == len(libraries.LIBRARIES) + len(libraries.EXTENSIONS)
 
 
-def end_of_expression(function, text, start, skip):
-    scanner = em.Scanner('@', text)
-    scanner.advance(start)
+_PIECES = (
+    'text\n', '@@', '@# said\n', '@(a)', '@( a + 1)', '@a', '@name.upper()', '@{b = a}\n', '@(b)',
+    '@[if a]', '@[elif name]', '@[else]', '@[end if]', '@[for x in range(3)]@(x)', '@[end for]',
+    '@{\ndef f():\n    return 3\n}', '@(f())', '@(', '@{', '@[', '@', '"@(\')\')"', '@!', '\r\n',
+)  # fmt: skip
+
+
+def expanded(template, functions, methods):
+    """Return what EmPy makes of a template, with these functions of its own; or its error."""
+    with (
+        mock.patch.multiple(em, create=True, **functions),
+        mock.patch.multiple(em.Interpreter, **methods),
+        mock.patch.object(em.Interpreter, 'installProxy'),  # standard output stays pytest's
+    ):
+        output = io.StringIO()
+        options = {em.RAW_OPT: True, em.OVERRIDE_OPT: False}
+        interpreter = em.Interpreter(output=output, options=options)
+        try:
+            interpreter.string(template, 'some.em', {'a': 1, 'name': 'n'})
+            interpreter.flush()
+            return output.getvalue()
+        except Exception as error:
+            return type(error)
+        finally:
+            interpreter.shutdown()
+
+
+@pytest.fixture(scope='module')
+def as_written_by_empy_and_as_ours():
+    before = {'_exec': em._exec, 'eval': eval}, {'string': em.Interpreter.string}
     try:
-        return function(scanner, '[', ']', 0, None, skip)
-    except em.TransientParseError as error:
-        return str(error)
+        generators.read_templates_once()
+        ours = {'_exec': em._exec, 'eval': em.eval}, {'string': em.Interpreter.string}
+    finally:
+        em._exec, em.Interpreter.string = before[0]['_exec'], before[1]['string']
+        del em.eval
+    return before, ours
 
 
-@given(st.text('[]\'"\\x\n', max_size=40), st.integers(0, 40), st.sampled_from([None, '\\']))
-def test_expressions_of_templates_end_where_empy_finds_their_ends(text, start, skip):
-    start = min(start, len(text))
-    expected = end_of_expression(em.Scanner.complex, text, start, skip)
-    assert end_of_expression(generators.end_of_expression, text, start, skip) == expected
+@given(st.lists(st.sampled_from(_PIECES), max_size=12).map(''.join))
+def test_a_template_that_is_read_once_expands_as_ever(as_written_by_empy_and_as_ours, template):
+    before, ours = as_written_by_empy_and_as_ours
+    assert expanded(template, *ours) == expanded(template, *before)
+    assert expanded(template, *ours) == expanded(template, *before)  # of what was read before
 
 
 def test_another_module_than_these_needs_no_new_wheel():
