@@ -4,18 +4,19 @@
 The commands that a shell sees: ``ros2`` and ``check_urdf``.
 
 They need no ROS installation; ``ros2`` has the flags, texts and exit codes of Jazzy's.
-A verb is one small file: a docstring, which is its help, ``add_arguments(parser)``, and
-``main(args)``, which returns the exit code. To add one, write ``<command>/<verb>.py`` and its
-line in the table ``VERBS`` of ``<command>/__init__.py``; to add a command, write its line in
-``COMMANDS`` of :mod:`~amr_description.cli.ros2`.
+A verb is a module or a class: a docstring, which is its help, ``add_arguments(parser)``, and
+``main(args)``, which returns the exit code. To add one, write it and its line in the table
+``VERBS`` of its command; to add a command, write its line in ``COMMANDS`` of
+:mod:`~amr_description.cli.ros2`.
 
 ======================= =======================================================================
 main.py                 the entry point: standard streams, errors -> exit codes, Ctrl-C
 lazy_parser.py          a parser that imports only the modules of its command line
 completion.py           tab completion in bash and zsh, with the functions in completers/
 ros2.py                 the commands of ``ros2``
-topic/ node/ ...        a command each; one file per verb
-run.py launch.py        commands without verbs; child_process.py, launch_files.py, not_offered.py
+topic/ node.py ...      a command each; a file for verbs that are alike, or one that is long
+graph_verbs.py          the verbs of all commands that only look at the graph
+run.py launch.py        commands without verbs; launch_files.py
 check_urdf.py           a description and its findings; urdf_report.py, inertia.py
 arguments.py            flags that several verbs have, and the types of values
 qos_arguments.py        the ``--qos-*`` flags

@@ -194,7 +194,7 @@ def _print_footprint(
     text: str, source: str, find_file: FindFile, arguments: argparse.Namespace
 ) -> int:
     """Print the footprint of the robot; return the exit code."""
-    from amr_description.cli.footprint import footprint_json, footprint_yaml
+    from amr_description.cli.urdf_report import footprint_json, footprint_yaml
     from amr_description.model.footprint import footprint
 
     low, high = arguments.heights or (-math.inf, math.inf)

@@ -3,8 +3,9 @@
 """
 A parser for commands and verbs that imports only the modules that a command line needs.
 
-A table maps the name of a command or verb to its module. Such a module has a docstring, whose
-first line is the help and whose rest is printed below the arguments, and either
+A table maps the name of a command or verb to its module, or to ``module:name`` of a class or
+object in one that has several verbs. Each of these has a docstring, whose first line is the help
+and whose rest is printed below the arguments, and either
 
 - ``main(args) -> int``, and ``add_arguments(parser)``: a verb; or
 - ``VERBS``, a table of its own, and optionally ``add_arguments(parser)``: a group of verbs. With
@@ -18,8 +19,23 @@ from argparse import _SubParsersAction
 from collections.abc import Callable, Mapping, Sequence
 import importlib
 from itertools import dropwhile, takewhile
-from types import ModuleType
+from textwrap import dedent
 from typing import Any
+
+INSTEAD_OF_COMMANDS = {
+    'ros2 component': 'components are C++ nodes, of which there are none here; start nodes with '
+    '`ros2 run` and `ros2 launch`',
+    'ros2 multicast': 'see with `ros2 doctor hello` on both machines whether they hear each other '
+    '(docs/two_machines.md)',
+    'ros2 plugin': 'plugins of C++ are not read here; those of the controller manager are listed '
+    'by `ros2 control list_controller_types`',
+    'ros2 security': 'there are no enclaves; keep a robot to this host, or to one network, with '
+    'ROS_AUTOMATIC_DISCOVERY_RANGE (docs/two_machines.md)',
+    'ros2 service echo': 'call the service with `ros2 service call`, or log in its node',
+    'ros2 test': 'write tests for pytest (docs/test_your_robot.md), run by `colcon test`',
+    'ros2 trace': 'see the times of the control loop with `ros2 topic echo /diagnostics`',
+}
+"""By command, or command and verb, of ROS, that is not here: what would do."""
 
 
 class LazyParser(argparse.ArgumentParser):
@@ -43,7 +59,7 @@ class LazyParser(argparse.ArgumentParser):
     ) -> tuple[argparse.Namespace, list[str]]:
         """Import the module first."""
         if self._module:
-            self._load(importlib.import_module(self._module))
+            self._load(imported(self._module))
         if self._table:
             self._add_table(args or ())
         if not (self._intermixed and self._can_intermix(args or ())):
@@ -63,7 +79,7 @@ class LazyParser(argparse.ArgumentParser):
         """
         self._intermixed = False
         if self._module:
-            self._load(importlib.import_module(self._module))
+            self._load(imported(self._module))
         if not self._table:
             return [self]
         table = self._table
@@ -83,8 +99,6 @@ class LazyParser(argparse.ArgumentParser):
         """Say what to do instead of a verb that the original has."""
         instead = None
         if isinstance(action, _SubParsersAction) and value not in action.choices:
-            from amr_description.cli.not_offered import INSTEAD_OF_COMMANDS
-
             instead = INSTEAD_OF_COMMANDS.get(f'{self.prog} {value}')
         if instead:
             self.exit(2, f'{self.prog} {value} is not offered here: {instead}\n')
@@ -94,7 +108,7 @@ class LazyParser(argparse.ArgumentParser):
         """Parse a name of the table, and the following words with the parser of its module."""
         self._table = table
 
-    def _load(self, module: ModuleType) -> None:
+    def _load(self, module: Any) -> None:
         self._module = ''
         self.description, self.epilog = _description(module), _epilog(module)
         if hasattr(module, 'add_arguments'):
@@ -121,7 +135,7 @@ class LazyParser(argparse.ArgumentParser):
             parser_class=LazyParser,
         )
         for name, module in table.items():
-            about = {'help': _description(importlib.import_module(module))} if with_help else {}
+            about = {'help': _description(imported(module))} if with_help else {}
             subparsers.add_parser(name, module=module, **about)
         return subparsers
 
@@ -140,13 +154,20 @@ def _asks_for_help(args: Sequence[str], table: Mapping[str, str]) -> bool:
 
 def _listing(table: Mapping[str, str]) -> str:
     width = max(map(len, table))
-    modules = {name: importlib.import_module(module) for name, module in sorted(table.items())}
+    modules = {name: imported(module) for name, module in sorted(table.items())}
     return '\n'.join(f'{name:{width}}  {_description(m)}' for name, m in modules.items())
 
 
-def _description(module: ModuleType) -> str:
+def imported(name: str) -> Any:
+    """Return a command or verb of a table."""
+    module, _, attribute = name.partition(':')
+    found = importlib.import_module(module)
+    return getattr(found, attribute) if attribute else found
+
+
+def _description(module: Any) -> str:
     return (module.__doc__ or '').strip().partition('\n')[0].removesuffix('.')
 
 
-def _epilog(module: ModuleType) -> str:
-    return (module.__doc__ or '').strip().partition('\n')[2].strip()
+def _epilog(module: Any) -> str:
+    return dedent((module.__doc__ or '').strip().partition('\n')[2]).strip()

@@ -3,14 +3,14 @@
 """Various rosbag related sub-commands."""
 
 VERBS = {
-    'burst': 'amr_description.cli.bag.burst',
-    'convert': 'amr_description.cli.bag.convert',
-    'filter': 'amr_description.cli.bag.filter',
-    'info': 'amr_description.cli.bag.info',
-    'list': 'amr_description.cli.bag.list',
-    'merge': 'amr_description.cli.bag.merge',
-    'play': 'amr_description.cli.bag.play',
+    'burst': 'amr_description.cli.bag.play:BurstVerb',
+    'convert': 'amr_description.cli.bag.rewriting:ConvertVerb',
+    'filter': 'amr_description.cli.bag.rewriting:FilterVerb',
+    'info': 'amr_description.cli.bag.listing:InfoVerb',
+    'list': 'amr_description.cli.bag.listing:ListVerb',
+    'merge': 'amr_description.cli.bag.rewriting:MergeVerb',
+    'play': 'amr_description.cli.bag.play:PlayVerb',
     'record': 'amr_description.cli.bag.record',
-    'reindex': 'amr_description.cli.bag.reindex',
-    'trim': 'amr_description.cli.bag.trim',
+    'reindex': 'amr_description.cli.bag.listing:ReindexVerb',
+    'trim': 'amr_description.cli.bag.rewriting:TrimVerb',
 }

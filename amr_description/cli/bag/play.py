@@ -1,19 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""
-Play back ROS data from a bag.
-
-examples:
-  ros2 bag play my_bag --rate 0.5 --loop
-  ros2 bag play my_bag --clock --topics /scan /tf /tf_static
-  ros2 bag play my_bag --remap /cmd_vel:=/recorded/cmd_vel
-"""
+"""The verbs of ``ros2 bag`` that play: an object each, see ``lazy_parser``."""
 
 from argparse import ArgumentParser, ArgumentTypeError, FileType, Namespace
+from pathlib import Path
 
+from amr_description.bag.topic_selection import TopicSelection
 from amr_description.cli.bag.inputs import (
     above_zero,
     add_multi_reader_arguments,
+    add_reader_arguments,
     add_selection_arguments,
     finite_float,
     inputs,
@@ -26,30 +22,73 @@ from amr_description.cli.bag.inputs import (
 LOG_LEVELS = ('debug', 'info', 'warn', 'error', 'fatal')
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """Add the arguments of the verb."""
-    add_multi_reader_arguments(parser)
-    add_queue_argument(parser)
-    parser.add_argument(
-        '-r',
-        '--rate',
-        type=above_zero,
-        default=1.0,
-        help='rate at which to play back messages. Valid range > 0.0.',
-    )
-    add_selection_arguments(parser, 'play')
-    add_qos_argument(parser)
-    parser.add_argument(
-        '-l',
-        '--loop',
-        action='store_true',
-        help='enables loop playback when playing a bagfile: it starts back at the beginning on '
-        'reaching the end and plays indefinitely.',
-    )
-    add_remap_argument(parser)
-    _add_clock(parser)
-    _add_begin_and_end(parser)
-    _add_publishing(parser)
+class PlayVerb:
+    """
+    Play back ROS data from a bag.
+
+    examples:
+      ros2 bag play my_bag --rate 0.5 --loop
+      ros2 bag play my_bag --clock --topics /scan /tf /tf_static
+      ros2 bag play my_bag --remap /cmd_vel:=/recorded/cmd_vel
+    """
+
+    @staticmethod
+    def add_arguments(parser: ArgumentParser) -> None:
+        """Add the arguments of the verb."""
+        add_multi_reader_arguments(parser)
+        add_queue_argument(parser)
+        parser.add_argument(
+            '-r',
+            '--rate',
+            type=above_zero,
+            default=1.0,
+            help='rate at which to play back messages. Valid range > 0.0.',
+        )
+        add_selection_arguments(parser, 'play')
+        add_qos_argument(parser)
+        parser.add_argument(
+            '-l',
+            '--loop',
+            action='store_true',
+            help='enables loop playback when playing a bagfile: it starts back at the beginning '
+            'on reaching the end and plays indefinitely.',
+        )
+        add_remap_argument(parser)
+        _add_clock(parser)
+        _add_begin_and_end(parser)
+        _add_publishing(parser)
+
+    @staticmethod
+    def main(args: Namespace) -> int:
+        """Play to the end, or until a signal; 0 if to the end."""
+        from amr_description.bag.playback import PlaybackOptions
+        from amr_description.bag.ros.player import PlayerOptions
+        from amr_description.cli.bag.playing import overrides_of, play
+
+        chosen = selection(args)
+        until = args.playback_until_nsec
+        if args.playback_until_sec >= 0.0:
+            until = nanoseconds(args.playback_until_sec)
+        playback = PlaybackOptions(
+            rate=args.rate,
+            loop=args.loop,
+            start_paused=args.start_paused,
+            delay=nanoseconds(args.delay),
+            start_offset=nanoseconds(args.start_offset),
+            duration=nanoseconds(args.playback_duration) if args.playback_duration >= 0.0 else -1,
+            until=until,
+            read_ahead=args.read_ahead_queue_size,
+        )
+        triggers = args.clock_topics or None
+        options = PlayerOptions(
+            playback=playback,
+            clock_frequency=args.clock,
+            clock_topics=() if args.clock_topics_all else triggers,
+            overrides=overrides_of(args.qos_profile_overrides_path),
+            acked_timeout=args.wait_for_all_acked,
+            requests_from=args.service_requests_source if args.publish_service_requests else '',
+        )
+        return play(inputs(args), chosen, options, args)
 
 
 def add_queue_argument(parser: ArgumentParser) -> None:
@@ -224,33 +263,54 @@ def _add_publishing(parser: ArgumentParser) -> None:
     parser.add_argument('--log-level', default='info', choices=LOG_LEVELS, help='Logging level.')
 
 
-def main(args: Namespace) -> int:
-    """Play to the end, or until a signal; 0 if to the end."""
-    from amr_description.bag.playback import PlaybackOptions
-    from amr_description.bag.ros.player import PlayerOptions
-    from amr_description.cli.bag.playing import overrides_of, play
+class BurstVerb:
+    """
+    Burst data from a bag.
 
-    chosen = selection(args)
-    until = args.playback_until_nsec
-    if args.playback_until_sec >= 0.0:
-        until = nanoseconds(args.playback_until_sec)
-    playback = PlaybackOptions(
-        rate=args.rate,
-        loop=args.loop,
-        start_paused=args.start_paused,
-        delay=nanoseconds(args.delay),
-        start_offset=nanoseconds(args.start_offset),
-        duration=nanoseconds(args.playback_duration) if args.playback_duration >= 0.0 else -1,
-        until=until,
-        read_ahead=args.read_ahead_queue_size,
-    )
-    triggers = args.clock_topics or None
-    options = PlayerOptions(
-        playback=playback,
-        clock_frequency=args.clock,
-        clock_topics=() if args.clock_topics_all else triggers,
-        overrides=overrides_of(args.qos_profile_overrides_path),
-        acked_timeout=args.wait_for_all_acked,
-        requests_from=args.service_requests_source if args.publish_service_requests else '',
-    )
-    return play(inputs(args), chosen, options, args)
+    Messages are published as fast as possible. After those that are asked for the player is
+    paused, and goes on by its keys and services.
+    """
+
+    @staticmethod
+    def add_arguments(parser: ArgumentParser) -> None:
+        """Add the arguments of the verb."""
+        add_reader_arguments(parser)
+        add_queue_argument(parser)
+        for name in ('topic', 'service'):
+            parser.add_argument(
+                f'--{name}s',
+                default=[],
+                nargs='+',
+                help=f'{name}s to replay, separated by space. At least one {name} needs to be '
+                f"specified. If this parameter isn't specified, all {name}s will be replayed.",
+            )
+        add_qos_argument(parser)
+        add_remap_argument(parser)
+        add_offset_argument(parser)
+        parser.add_argument(
+            '-n',
+            '--num-messages',
+            type=not_negative_int,
+            default=0,
+            help='Burst the specified number of messages, then pause.',
+        )
+        parser.set_defaults(log_level='info', disable_keyboard_controls=False)
+
+    @staticmethod
+    def main(args: Namespace) -> int:
+        """Play to the end, or until a signal; 0 if to the end."""
+        from amr_description.bag.playback import PlaybackOptions
+        from amr_description.bag.ros.player import PlayerOptions
+        from amr_description.cli.bag.playing import overrides_of, play
+
+        playback = PlaybackOptions(
+            start_paused=True,
+            start_offset=nanoseconds(args.start_offset),
+            read_ahead=args.read_ahead_queue_size,
+        )
+        options = PlayerOptions(
+            playback=playback, overrides=overrides_of(args.qos_profile_overrides_path)
+        )
+        chosen = TopicSelection(topics=args.topics, services=args.services)
+        given = [(Path(args.bag_path), args.storage or None)]
+        return play(given, chosen, options, args, burst=args.num_messages)

@@ -2,17 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Various control related sub-commands."""
 
+_CHANGES, _LISTING = f'{__name__}.changes', f'{__name__}.listing'
 VERBS = {
-    'cleanup_controller': 'amr_description.cli.control.cleanup_controller',
-    'list_controller_types': 'amr_description.cli.control.list_controller_types',
-    'list_controllers': 'amr_description.cli.control.list_controllers',
-    'list_hardware_components': 'amr_description.cli.control.list_hardware_components',
-    'list_hardware_interfaces': 'amr_description.cli.control.list_hardware_interfaces',
-    'load_controller': 'amr_description.cli.control.load_controller',
-    'reload_controller_libraries': 'amr_description.cli.control.reload_controller_libraries',
-    'set_controller_state': 'amr_description.cli.control.set_controller_state',
-    'set_hardware_component_state': 'amr_description.cli.control.set_hardware_component_state',
-    'switch_controllers': 'amr_description.cli.control.switch_controllers',
-    'unload_controller': 'amr_description.cli.control.unload_controller',
-    'view_controller_chains': 'amr_description.cli.control.view_controller_chains',
+    'cleanup_controller': f'{_CHANGES}:CLEANUP_CONTROLLER',
+    'list_controller_types': f'{_LISTING}:ListControllerTypesVerb',
+    'list_controllers': f'{_LISTING}:ListControllersVerb',
+    'list_hardware_components': f'{_LISTING}:ListHardwareComponentsVerb',
+    'list_hardware_interfaces': f'{_LISTING}:ListHardwareInterfacesVerb',
+    'load_controller': f'{_CHANGES}:LoadControllerVerb',
+    'reload_controller_libraries': f'{_CHANGES}:ReloadControllerLibrariesVerb',
+    'set_controller_state': f'{_CHANGES}:SetControllerStateVerb',
+    'set_hardware_component_state': f'{_CHANGES}:SetHardwareComponentStateVerb',
+    'switch_controllers': f'{_CHANGES}:SwitchControllersVerb',
+    'unload_controller': f'{_CHANGES}:UNLOAD_CONTROLLER',
+    'view_controller_chains': f'{_LISTING}:ViewControllerChainsVerb',
 }

@@ -3,9 +3,9 @@
 """Show information about ROS interfaces."""
 
 VERBS = {
-    'list': 'amr_description.cli.interface.list',
-    'package': 'amr_description.cli.interface.package',
-    'packages': 'amr_description.cli.interface.packages',
-    'proto': 'amr_description.cli.interface.proto',
-    'show': 'amr_description.cli.interface.show',
+    'list': 'amr_description.cli.interface.verbs:ListVerb',
+    'package': 'amr_description.cli.interface.verbs:PackageVerb',
+    'packages': 'amr_description.cli.interface.verbs:PackagesVerb',
+    'proto': 'amr_description.cli.interface.verbs:ProtoVerb',
+    'show': 'amr_description.cli.interface.verbs:ShowVerb',
 }

@@ -14,6 +14,14 @@ _FIELD_OF_MESSAGE = re.compile(
     r'(?:(?P<package>\w+)/)?(?P<message>[A-Z]\w*)(?:\[[^]]*\])?[ \t]+[a-z]'
 )
 
+KINDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
+"""The second part of an interface's name -> its kind in words."""
+
+
+def kind_of(name: str) -> str:
+    """Return the kind of ``msg/Name``."""
+    return name.partition('/')[0]
+
 
 @dataclass(frozen=True)
 class Definition:

@@ -9,8 +9,7 @@ from pathlib import Path
 from ament_index_python import get_resource, get_resources
 
 from amr_description.ament_index import packages
-from amr_description.cli.interface.definition import Definition
-from amr_description.cli.interface.kinds import kind_of, KINDS
+from amr_description.cli.interface.definition import Definition, kind_of, KINDS
 from amr_description.errors import AmrError
 from amr_description.text import did_you_mean, shorten
 

@@ -3,8 +3,8 @@
 """Various lifecycle related sub-commands."""
 
 VERBS = {
-    'get': 'amr_description.cli.lifecycle.get',
-    'list': 'amr_description.cli.lifecycle.list',
-    'nodes': 'amr_description.cli.lifecycle.nodes',
-    'set': 'amr_description.cli.lifecycle.set',
+    'get': 'amr_description.cli.lifecycle.verbs:GetVerb',
+    'list': 'amr_description.cli.lifecycle.verbs:ListVerb',
+    'nodes': 'amr_description.cli.graph_verbs:LIFECYCLE_NODES',
+    'set': 'amr_description.cli.lifecycle.verbs:SetVerb',
 }

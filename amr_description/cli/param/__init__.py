@@ -3,11 +3,11 @@
 """Various param related sub-commands."""
 
 VERBS = {
-    'delete': 'amr_description.cli.param.delete',
-    'describe': 'amr_description.cli.param.describe',
-    'dump': 'amr_description.cli.param.dump',
-    'get': 'amr_description.cli.param.get',
-    'list': 'amr_description.cli.param.list',
-    'load': 'amr_description.cli.param.load',
-    'set': 'amr_description.cli.param.set',
+    'delete': 'amr_description.cli.param.verbs:DeleteVerb',
+    'describe': 'amr_description.cli.param.verbs:DescribeVerb',
+    'dump': 'amr_description.cli.param.verbs:DumpVerb',
+    'get': 'amr_description.cli.param.verbs:GetVerb',
+    'list': 'amr_description.cli.param.verbs:ListVerb',
+    'load': 'amr_description.cli.param.verbs:LoadVerb',
+    'set': 'amr_description.cli.param.verbs:SetVerb',
 }

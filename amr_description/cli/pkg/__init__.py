@@ -4,8 +4,8 @@
 
 VERBS = {
     'create': 'amr_description.cli.pkg.create',
-    'executables': 'amr_description.cli.pkg.executables',
-    'list': 'amr_description.cli.pkg.list',
-    'prefix': 'amr_description.cli.pkg.prefix',
-    'xml': 'amr_description.cli.pkg.xml',
+    'executables': 'amr_description.cli.pkg.index_verbs:ExecutablesVerb',
+    'list': 'amr_description.cli.pkg.index_verbs:ListVerb',
+    'prefix': 'amr_description.cli.pkg.index_verbs:PrefixVerb',
+    'xml': 'amr_description.cli.pkg.index_verbs:XmlVerb',
 }

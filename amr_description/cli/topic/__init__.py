@@ -5,15 +5,15 @@
 import argparse
 
 VERBS = {
-    'bw': 'amr_description.cli.topic.bw',
-    'delay': 'amr_description.cli.topic.delay',
+    'bw': 'amr_description.cli.topic.rates:BwVerb',
+    'delay': 'amr_description.cli.topic.rates:DelayVerb',
     'echo': 'amr_description.cli.topic.echo',
-    'find': 'amr_description.cli.topic.find',
-    'hz': 'amr_description.cli.topic.hz',
-    'info': 'amr_description.cli.topic.info',
-    'list': 'amr_description.cli.topic.list',
+    'find': 'amr_description.cli.graph_verbs:TOPIC_FIND',
+    'hz': 'amr_description.cli.topic.rates:HzVerb',
+    'info': 'amr_description.cli.graph_verbs:TopicInfo',
+    'list': 'amr_description.cli.graph_verbs:TOPIC_LIST',
     'pub': 'amr_description.cli.topic.pub',
-    'type': 'amr_description.cli.topic.type',
+    'type': 'amr_description.cli.graph_verbs:TOPIC_TYPE',
 }
 
 

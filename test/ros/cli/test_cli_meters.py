@@ -8,7 +8,7 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
 from amr_description.cli.meters import BandwidthMeter, DelayMeter, WindowStatistics
-from amr_description.cli.topic.delay import stamp_reader
+from amr_description.cli.topic.rates import stamp_reader
 from amr_description.errors import AmrError
 
 MS = 1_000_000  # ns

@@ -17,9 +17,8 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 import yaml
 
-from amr_description.cli.param.describe import lines
-from amr_description.cli.param.files import select
 from amr_description.cli.param.values import advice, as_text, to_message, TYPE_NAMES, typed
+from amr_description.cli.param.verbs import lines, select
 from amr_description.errors import AmrError, ParameterError
 from amr_description.parameter_files import parameter_file_text
 

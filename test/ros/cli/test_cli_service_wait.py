@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from amr_description.cli.service import call
+from amr_description.cli import service as call
 
 WHY = 'you call /set_it as another type'
 

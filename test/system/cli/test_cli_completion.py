@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tab completion: what may come next, what it costs, and that a shell gets it."""
 
-import importlib
 import os
 from pathlib import Path
 import re
@@ -18,7 +17,7 @@ from support.paths import ROOT
 from support.running_programs import Program
 
 from amr_description.cli.completers import COMPLETERS
-from amr_description.cli.lazy_parser import LazyParser
+from amr_description.cli.lazy_parser import imported, LazyParser
 from amr_description.cli.ros2 import COMMANDS
 from amr_description.registry import resolve
 
@@ -164,7 +163,7 @@ def test_controllers_come_from_their_manager_by_their_state(host, complete):
 
 def arguments_of(words, module):
     """Yield the names of the arguments of every verb, alone and behind those of their verb."""
-    table = getattr(importlib.import_module(module), 'VERBS', None)
+    table = getattr(imported(module), 'VERBS', None)
     if table:
         for verb, below in table.items():
             yield from arguments_of([*words, verb], below)

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from fixtures.cli.commands import ros2, running_node, started
 import pytest
 
-from amr_description.cli.control.list_controllers import add_arguments, lines
+from amr_description.cli.control.listing import controller_lines, ListControllersVerb
 
 
 @pytest.fixture(scope='module')
@@ -69,7 +69,7 @@ def test_verbose_tells_everything(manager):
 )
 def test_a_flag_asks_for_its_block(flag, titles):
     parser = ArgumentParser()
-    add_arguments(parser)
+    ListControllersVerb.add_arguments(parser)
     names = {name: [] for name in ('claimed', 'required_command', 'required_state')}
     controller = SimpleNamespace(
         name='a',
@@ -80,7 +80,7 @@ def test_a_flag_asks_for_its_block(flag, titles):
         exported_state_interfaces=[],
         **{f'{name}_interfaces': value for name, value in names.items()},
     )
-    first, *rest = lines([controller], parser.parse_args([flag]))
+    first, *rest = controller_lines([controller], parser.parse_args([flag]))
     assert first == 'a b/C  active'
     assert [line.strip() for line in rest] == titles
 

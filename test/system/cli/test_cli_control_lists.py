@@ -12,8 +12,7 @@ import pytest
 from support.manager_host import ros_in_this_process, running_host
 
 from amr_description.cli.control.chains import dot, tree
-from amr_description.cli.control.list_hardware_components import lines as component_lines
-from amr_description.cli.control.list_hardware_interfaces import lines as interface_lines
+from amr_description.cli.control.listing import component_lines, interface_lines
 
 RECORDED = json.loads((HERE / 'control_outputs.json').read_text())
 """verb -> the lines that the original prints, with the tutorial's robot over mock hardware."""

@@ -11,8 +11,7 @@ from fixtures.cli.commands import python, ros2
 import pytest
 
 from amr_description.cli import qos_arguments
-from amr_description.cli.lazy_parser import LazyParser, run
-from amr_description.cli.not_offered import INSTEAD_OF_COMMANDS
+from amr_description.cli.lazy_parser import INSTEAD_OF_COMMANDS, LazyParser, run
 from amr_description.cli.ros2 import COMMANDS
 from amr_description.cli.topic import VERBS
 
@@ -110,8 +109,8 @@ def test_the_help_of_verbs_needs_no_rclpy():
 
 def test_a_verb_does_not_import_the_others():
     modules = imported_by('pkg', 'prefix', 'nobody')
-    assert 'amr_description.cli.pkg.prefix' in modules
-    assert not {'amr_description.cli.topic', 'amr_description.cli.pkg.list'} & modules
+    assert 'amr_description.cli.pkg.index_verbs' in modules
+    assert not {'amr_description.cli.topic', 'amr_description.cli.pkg.create'} & modules
 
 
 @pytest.mark.parametrize('command', COMMANDS)

@@ -10,7 +10,7 @@ from lifecycle_msgs.msg import Transition
 import pytest
 
 from amr_description.cli.lifecycle.managed import explain_no_lifecycle
-from amr_description.cli.lifecycle.set import chosen
+from amr_description.cli.lifecycle.verbs import chosen
 from amr_description.errors import AmrError
 
 WALK = (  # what is set, and the state that follows

@@ -12,7 +12,7 @@ import pytest
 from support.waiting import until
 
 from amr_description.ament_index import executables_of, package_prefix, packages
-from amr_description.cli import child_process, run as run_verb
+from amr_description.cli import run as run_verb
 from amr_description.cli.run import _find as find_executable, STAND_INS
 from amr_description.errors import AmrError
 
@@ -271,7 +271,7 @@ def test_ctrl_c_waits_until_a_program_of_ours_is_imported(prefix, monkeypatch, w
     """It would print a traceback; ``entry.py`` unblocks it."""
     monkeypatch.setenv('AMENT_PREFIX_PATH', f'{prefix}:{os.environ["AMENT_PREFIX_PATH"]}')
     given = []
-    monkeypatch.setattr(child_process, 'run_to_end', lambda *args: given.append(args) or 0)
+    monkeypatch.setattr(run_verb, 'run_to_end', lambda *args: given.append(args) or 0)
     parser = ArgumentParser()
     run_verb.add_arguments(parser)
     assert run_verb.main(parser.parse_args(words)) == 0
@@ -282,8 +282,8 @@ def test_ctrl_c_waits_until_a_program_of_ours_is_imported(prefix, monkeypatch, w
 def test_what_is_blocked_is_so_in_the_child_alone(capfd):
     code = 'import signal; print(signal.pthread_sigmask(signal.SIG_BLOCK, []))'
     command = [sys.executable, '-c', code]
-    assert child_process.run_to_end(command, os.environ, {signal.SIGINT}) == 0
-    assert child_process.run_to_end(command, os.environ) == 0
+    assert run_verb.run_to_end(command, os.environ, {signal.SIGINT}) == 0
+    assert run_verb.run_to_end(command, os.environ) == 0
     assert capfd.readouterr().out == '{<Signals.SIGINT: 2>}\nset()\n'
     assert signal.pthread_sigmask(signal.SIG_BLOCK, []) == set()
 

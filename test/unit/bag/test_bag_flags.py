@@ -3,10 +3,12 @@
 """The flags of ``ros2 bag`` are those of Jazzy (0.26.11): names, values, what excludes what."""
 
 from argparse import ArgumentParser
-import importlib
 import re
 
 import pytest
+
+from amr_description.cli.bag import VERBS
+from amr_description.cli.lazy_parser import imported
 
 USAGE = {
     'record': """
@@ -98,7 +100,7 @@ def verb(request):
 @pytest.fixture
 def parser(verb):
     made = ArgumentParser(prog='ros2')
-    importlib.import_module(f'amr_description.cli.bag.{verb}').add_arguments(made)
+    imported(VERBS[verb]).add_arguments(made)
     return made
 
 
@@ -129,7 +131,7 @@ def test_each_has_a_help(parser):
 @pytest.mark.parametrize('words', ['-f cdr', '-s rosbag', '--compression-format lz4', '-p x'])
 def test_values_that_are_none(words, capsys):
     made = ArgumentParser(prog='ros2')
-    importlib.import_module('amr_description.cli.bag.record').add_arguments(made)
+    imported(VERBS['record']).add_arguments(made)
     with pytest.raises(SystemExit, match='^2$'):
         made.parse_args(['-a', *words.split()])
     assert re.search(r'invalid (choice|int value): ', capsys.readouterr().err)

@@ -19,7 +19,7 @@ from amr_description.bag.metadata import BagMetadata, TopicInformation
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.bag.topic_filter import TopicFilter
-from amr_description.cli.bag import info, record, reindex
+from amr_description.cli.bag import listing, record
 from amr_description.errors import BagError
 
 SECOND = 10**9
@@ -111,7 +111,7 @@ def test_topics_are_sorted(sort, names, services):
     text = info_text(found, 0, sort=sort)
     assert re.findall(r'Topic: (\S+)', text) == names
     assert re.findall(r'Service: (/\S+)', text) == services
-    assert {*SORTING} == {*info.SORTING}
+    assert {*SORTING} == {*listing.SORTING}
 
 
 @pytest.mark.parametrize(
@@ -150,7 +150,7 @@ def run(verb, *words):
 def test_reindex_finds_all_that_was_written(bag):
     before = (bag / 'metadata.yaml').read_text()
     (bag / 'metadata.yaml').unlink()
-    assert run(reindex, bag) == 0
+    assert run(listing.ReindexVerb, bag) == 0
     assert (bag / 'metadata.yaml').read_text() == before
     assert yaml.safe_load(before)['rosbag2_bagfile_information']['message_count'] == 20
 
@@ -160,46 +160,46 @@ def test_reindex_mends_what_is_wrong_and_keeps_custom_data(bag):
     wrong.relative_file_paths[0] = 'missing.mcap'
     wrong.custom_data['by'] = 'hand'
     metadata.write(bag, wrong)
-    assert run(reindex, bag) == 0
+    assert run(listing.ReindexVerb, bag) == 0
     found = metadata.read(bag)
     assert (found.message_count, found.custom_data) == (20, {'site': 'A', 'by': 'hand'})
 
 
 def test_reindex_is_of_folders(bag, capsys):
     with pytest.raises(BagError, match='neither metadata.yaml nor a file'):
-        run(reindex, bag, '-s', 'sqlite3')
-    assert run(reindex, bag / 'bag_0.mcap') == 1
+        run(listing.ReindexVerb, bag, '-s', 'sqlite3')
+    assert run(listing.ReindexVerb, bag / 'bag_0.mcap') == 1
     assert capsys.readouterr().err == '[ERROR] [ros2bag]: Must specify a bag directory\n'
 
 
 def test_info_of_a_folder_a_file_and_what_was_interrupted(bag, capsys):
-    assert run(info, bag, '-t') == 0
+    assert run(listing.InfoVerb, bag, '-t') == 0
     assert capsys.readouterr() == ('/a\n', '')
-    assert run(info, bag, '-s', 'mcap') == 0
+    assert run(listing.InfoVerb, bag, '-s', 'mcap') == 0
     whole = capsys.readouterr().out
     assert 'Messages:          20\n' in whole
     assert whole.endswith('Service information: \n\n')
-    assert run(info, bag / 'bag_1.mcap') == 0
+    assert run(listing.InfoVerb, bag / 'bag_1.mcap') == 0
     assert 'Messages:          6\n' in capsys.readouterr().out
     (bag / 'metadata.yaml').unlink()
     (bag / 'bag_4.mcap').write_bytes(b'')  # it had just been made
-    assert run(info, bag, '-v') == 0
+    assert run(listing.InfoVerb, bag, '-v') == 0
     printed = capsys.readouterr()
     assert 'Messages:          20\n' in printed.out
     assert 'it was interrupted' in printed.err
     with pytest.raises(BagError, match='neither metadata.yaml nor a file'):
-        run(info, bag, '-s', 'sqlite3')
+        run(listing.InfoVerb, bag, '-s', 'sqlite3')
 
 
 def test_info_can_be_sorted(tmp_path, capsys):
     write_bag(tmp_path / 'bag', [topic('/a'), topic('/b')], [(0, '/a', 'x')])
-    assert run(info, tmp_path / 'bag', '-t', '--sort', 'count') == 0
-    assert run(info, tmp_path / 'bag', '-t') == 0
+    assert run(listing.InfoVerb, tmp_path / 'bag', '-t', '--sort', 'count') == 0
+    assert run(listing.InfoVerb, tmp_path / 'bag', '-t') == 0
     assert capsys.readouterr().out.split() == ['/b', '/a', '/a', '/b']
 
 
 def test_verbose_goes_before_names(bag, capsys):
-    assert run(info, bag, '-t', '-v') == 0
+    assert run(listing.InfoVerb, bag, '-t', '-v') == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == (
         "Warning! You have set both the '-t' and '-v' parameters. The '-t' parameter will be "

@@ -1,0 +1,162 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""Various service related sub-commands."""
+
+from argparse import ArgumentParser, Namespace
+import sys
+import time
+from typing import Any, TYPE_CHECKING
+
+from amr_description.cli.arguments import positive_float
+from amr_description.errors import AmrError
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+
+    from amr_description.cli.session import Session
+
+_HINT_AFTER = 2.0  # s of waiting until a hint is looked for, and between two looks
+
+
+class CallVerb:
+    """
+    Call a service.
+
+    Fields that are not mentioned keep their defaults. The word 'auto' for a header, or 'now' for a
+    time, stands for the time of each request.
+
+    examples:
+      ros2 service call /set_it std_srvs/srv/SetBool "{data: true}"
+      ros2 service call --timeout 5 /trigger std_srvs/srv/Trigger
+    """
+
+    @staticmethod
+    def add_arguments(parser: ArgumentParser) -> None:
+        """Add the arguments of the verb."""
+        parser.add_argument(
+            'service_name', help="Name of the ROS service to call to (e.g. '/add_two_ints')"
+        )
+        parser.add_argument(
+            'service_type', help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')"
+        )
+        source = parser.add_mutually_exclusive_group()
+        source.add_argument(
+            'values',
+            nargs='?',
+            default='{}',
+            help="Values to fill the service request with in YAML format (e.g. '{a: 1, b: 2}'), "
+            'otherwise the service request will be published with default values',
+        )
+        source.add_argument('--stdin', action='store_true', help='Read values from standard input')
+        parser.add_argument(
+            '-r',
+            '--rate',
+            metavar='N',
+            type=float,
+            help='Repeat the call at a specific rate in Hz',
+        )
+        parser.add_argument(
+            '--timeout',
+            metavar='N',
+            type=positive_float,
+            help='Longest time in seconds to wait for the service, and again for each response; '
+            'without it the wait is endless',
+        )
+
+    @staticmethod
+    def main(args: Namespace) -> int:
+        """Print request and response, once or until Ctrl-C; 0 if done."""
+        from amr_description.cli.names import full_name
+        from amr_description.cli.session import open_session
+        from amr_description.cli.yaml_input import read_value
+        from amr_description.ros.message_fields import set_fields
+        from amr_description.ros.message_types import service_type
+        from amr_description.ros.qos import SERVICE_CLIENT
+
+        if args.rate is not None and not 0.0 < args.rate < float('inf'):
+            raise AmrError('rate must be greater than zero')
+        service_class = service_type(args.service_type)
+        request = service_class.Request()
+        stamps = set_fields(request, read_value(sys.stdin.read() if args.stdin else args.values))
+        with open_session() as session:
+            name = full_name(session.node, args.service_name, 'a service')
+            client = session.node.create_client(service_class, name, qos_profile=SERVICE_CLIENT)
+            _wait_for_service(session, client, args.timeout)
+            while True:
+                start = time.monotonic()
+                now = session.node.get_clock().now().to_msg()
+                for stamp in stamps:
+                    stamp(now)
+                _call(session, client, request, args.timeout)
+                if args.rate is None:
+                    return 0
+                session.serve(timeout=start + 1.0 / args.rate - time.monotonic())
+
+
+def _call(session: 'Session', client: 'Client', request: Any, timeout: float | None) -> None:
+    """Print a request and its response. Raises AmrError."""
+    from amr_description.cli.service_calls import response_to
+
+    print(f'requester: making request: {request!r}\n')
+    response = response_to(session, client, request, timeout)
+    if response is None:
+        raise AmrError(f'No response from {client.service_name} within {timeout:g} s')
+    print(f'response:\n{response!r}\n')
+
+
+def _wait_for_service(session: 'Session', client: 'Client', timeout: float | None) -> None:
+    """Wait for the service, and print that. Raises AmrError."""
+    from amr_description.cli.discovery import is_there_within
+    from amr_description.ros.service_calls import ServiceReadiness
+
+    is_ready = ServiceReadiness(session.node, client)
+    if is_ready():
+        return
+    print('waiting for service to become available...')
+    left = float('inf') if timeout is None else timeout
+    hint = ''
+    while True:
+        # Again until something is known: the server may be discovered after the first time.
+        wait = left if hint else min(left, _HINT_AFTER)
+        if session.spin(is_ready, wait):
+            return
+        left -= wait
+        if left <= 0.0:
+            break
+        if hint := _explain_absence(session, client):
+            print(f'WARNING: {hint}', file=sys.stderr)
+    if is_there_within(session, is_ready, 0.0):
+        return
+    reason = '' if hint else _explain_absence(session, client)
+    raise AmrError(
+        f"Service '{client.service_name}' did not become available within {timeout:g} s"
+        + (f': {reason}' if reason else '')
+    )
+
+
+def _explain_absence(session: 'Session', client: 'Client') -> str:
+    """Return why the service is not there, '' if unknown."""
+    from amr_description.cli import graph
+    from amr_description.ros.message_types import type_name
+
+    return graph.explain_absent_service(
+        client.service_name,
+        type_name(client.srv_type),
+        graph.services(session.node, hidden=True),
+    )
+
+
+VERBS = {
+    'call': f'{__name__}:CallVerb',
+    'find': 'amr_description.cli.graph_verbs:SERVICE_FIND',
+    'info': 'amr_description.cli.graph_verbs:ServiceInfo',
+    'list': 'amr_description.cli.graph_verbs:SERVICE_LIST',
+    'type': 'amr_description.cli.graph_verbs:SERVICE_TYPE',
+}
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add what every verb of ``ros2 service`` reads."""
+    parser.add_argument(
+        '--include-hidden-services', action='store_true', help='Consider hidden services as well'
+    )
