@@ -17,7 +17,8 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``sensor_msgs_py/``     point clouds as arrays, as ``import sensor_msgs_py``
 ``ament_copyright/``    the linter of copyright notices, as ``import ament_copyright``
 ``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph
-``navigation/``         maps, paths and filters; in ``navigation/ros/`` their topics
+``maps/``               occupancy grids and their files
+``navigation/``         paths and filters; in ``navigation/ros/`` their topics
 ``bag/``                recordings of topics: MCAP files; in ``bag/ros/`` recorder and player
 ``doctor/``             what is wrong, and what mends it; ``doctor/host/`` reads the machine,
                         ``doctor/ros/`` the graph
@@ -25,7 +26,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``
 ``bringup/``            the launcher: stacks, conditions, processes
 ``launch_api/``         launch files of ROS: ``import launch``, ``import launch_ros``
-``cli/``                the ``ros2`` command and ``check_urdf``, one file a verb
+``cli/``                the ``ros2`` command and ``check_urdf``
 ``workspace/``          what ``colcon build`` of packages of users needs
 ``interface_build/``    message packages: what CMake of a workspace calls, and wheels of them
 ``testing/``            a simulation in lock-step, for tests of users

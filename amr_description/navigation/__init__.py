@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Navigation without ROS: maps, costs, paths, filters, and what Nav2 and slam_toolbox demand.
+Navigation without ROS: costs, paths, filters, and what Nav2 and slam_toolbox demand.
 
 Everything here is in a plane: lengths in m, angles in rad, counter-clockwise from the x axis.
 Time and chance are arguments, nothing here knows of ROS; ``navigation/ros/`` is the face towards
@@ -10,11 +10,6 @@ it, and the executables (``map_server``, ``twist_mux`` …) are in ``nodes/``.
 =============================  ===================================================================
 module                         what it holds
 =============================  ===================================================================
-``pose.py``                    a pose in the plane
-``grid.py``                    ``OccupancyGrid``: what is free, occupied and unknown, in cells
-``rasterization.py``           shapes as the cells that they touch, and what can be reached
-``images.py``                  PGM and PNG files
-``map_files.py``               maps in files: ``.yaml`` and image, as map_server has them
 ``distance_field.py``          how far each cell is from the nearest occupied one
 ``twist_mux.py``               which of several velocity commands goes on to the wheels
 

@@ -15,10 +15,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from amr_description.maps.grid import OccupancyGrid, UNKNOWN
+from amr_description.maps.pose import Pose
 from amr_description.navigation.distance_field import distances
 from amr_description.navigation.footprint import Points
-from amr_description.navigation.grid import OccupancyGrid, UNKNOWN
-from amr_description.navigation.pose import Pose
 from amr_description.parameters import parameter
 
 FREE_SPACE = 0

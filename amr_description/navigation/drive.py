@@ -15,11 +15,11 @@ from enum import Enum
 import math
 
 from amr_description.errors import NavigationError
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation import planner
 from amr_description.navigation.costmap import Costmap, INSCRIBED
 from amr_description.navigation.footprint import Points
 from amr_description.navigation.planner import PlannerSettings
-from amr_description.navigation.pose import Pose, wrapped
 from amr_description.navigation.recoveries import RECOVERIES, Recovery, RecoverySettings
 from amr_description.navigation.regulated_pure_pursuit import (
     NO_VALID_CONTROL,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from amr_description.errors import ParameterError
-from amr_description.navigation.pose import Pose
+from amr_description.maps.pose import Pose
 
 Points = NDArray[np.float64]
 

@@ -15,7 +15,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from amr_description.navigation.pose import Pose
+from amr_description.maps.pose import Pose
 from amr_description.navigation.scan_matching import Array, Match, ScanMatcher
 
 INITIAL_VARIANCES = (0.25, 0.25, (math.pi / 12.0) ** 2)

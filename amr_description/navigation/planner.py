@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from amr_description.errors import NavigationError
+from amr_description.maps.pose import Pose
 from amr_description.navigation.costmap import Costmap, INSCRIBED, LETHAL, NO_INFORMATION
 from amr_description.navigation.footprint import Points
-from amr_description.navigation.pose import Pose
 from amr_description.parameters import parameter
 
 START_OUTSIDE_MAP = 203

@@ -5,9 +5,9 @@
 from dataclasses import dataclass
 import math
 
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.costmap import Costmap
 from amr_description.navigation.footprint import placed, Points
-from amr_description.navigation.pose import Pose, wrapped
 from amr_description.parameters import parameter
 
 

@@ -17,9 +17,9 @@ import math
 import numpy as np
 
 from amr_description.errors import NavigationError
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.costmap import Costmap, FREE_SPACE, INSCRIBED
 from amr_description.navigation.footprint import placed, Points
-from amr_description.navigation.pose import Pose, wrapped
 from amr_description.parameters import parameter
 
 NO_VALID_CONTROL = 106

@@ -22,9 +22,9 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.distance_field import distances
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.pose import Pose, wrapped
 
 Array: TypeAlias = NDArray[np.float64]
 

@@ -25,8 +25,8 @@ import sys
 
 from amr_description.argument_types import finite
 from amr_description.errors import AmrError
-from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED
-from amr_description.navigation.map_files import save_map
+from amr_description.maps.grid import FREE, OccupancyGrid, OCCUPIED
+from amr_description.maps.map_files import save_map
 from amr_description.parameters import parameter
 from amr_description.ros_arguments import other_arguments
 from amr_description.sim.occupancy import map_of_world, MapSettings

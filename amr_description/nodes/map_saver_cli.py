@@ -26,7 +26,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from amr_description.errors import MapError, UsageError
-from amr_description.navigation.map_files import (
+from amr_description.maps.map_files import (
     FREE_THRESH,
     IMAGE_FORMATS,
     MapMode,

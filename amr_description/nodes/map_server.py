@@ -45,8 +45,8 @@ from amr_description.errors import (
     MapMetadataError,
     ParameterError,
 )
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.map_files import load_map
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.map_files import load_map
 from amr_description.navigation.ros.map_service import MapService
 from amr_description.parameters import parameter
 from amr_description.ros.node_help import print_help

@@ -69,6 +69,8 @@ from rclpy.node import Node
 from std_msgs.msg import Header
 
 from amr_description.errors import NavigationError
+from amr_description.maps.grid import OccupancyGrid, UNKNOWN
+from amr_description.maps.pose import Pose
 from amr_description.navigation import planner
 from amr_description.navigation.costmap import Costmap, INSCRIBED, LETHAL, NO_INFORMATION
 from amr_description.navigation.drive import Command, Drive, DriveSettings, Status
@@ -79,8 +81,6 @@ from amr_description.navigation.footprint import (
     Points,
     read_footprint,
 )
-from amr_description.navigation.grid import OccupancyGrid, UNKNOWN
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.goals import Goal, GoalServer, UNKNOWN_ERROR
 from amr_description.navigation.ros.messages import grid_message, pose_message
 from amr_description.navigation.ros.surroundings import (

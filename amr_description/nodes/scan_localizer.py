@@ -37,6 +37,7 @@ from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Empty
 
 from amr_description.errors import TransformException
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import matrix_from_quaternion
 from amr_description.navigation.localization import (
     is_lost,
@@ -44,7 +45,6 @@ from amr_description.navigation.localization import (
     ray_ends,
     ScanTracker,
 )
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.localizer import after, LocalizerTopics, plane_covariance
 from amr_description.navigation.ros.messages import grid_of, plane_pose, pose_of
 from amr_description.navigation.ros.transform_queue import TransformQueue

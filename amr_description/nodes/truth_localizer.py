@@ -40,8 +40,8 @@ from rclpy.time import Time
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import TransformException
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import quaternion_from_yaw, Transform
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.entity_mover import EntityMover
 from amr_description.navigation.ros.localizer import after, listed, LocalizerTopics
 from amr_description.navigation.ros.messages import plane_pose, pose_of

@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from amr_description.errors import MapError
-from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED, UNKNOWN
-from amr_description.navigation.pose import Pose
-from amr_description.navigation.rasterization import (
+from amr_description.maps.grid import FREE, OccupancyGrid, OCCUPIED, UNKNOWN
+from amr_description.maps.pose import Pose
+from amr_description.maps.rasterization import (
     fill_between,
     fill_convex,
     Mask,

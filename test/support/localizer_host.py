@@ -14,8 +14,8 @@ from rclpy.node import Node
 from support.running_programs import PATIENCE
 from tf2_msgs.msg import TFMessage
 
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import quaternion_from_yaw, Transform
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.messages import plane_pose, pose_message, pose_of
 from amr_description.ros.messages import fill_stamp, nanoseconds
 from amr_description.ros.qos import LATCHED

@@ -7,8 +7,8 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED
-from amr_description.navigation.pose import Pose
+from amr_description.maps.grid import FREE, OccupancyGrid, OCCUPIED
+from amr_description.maps.pose import Pose
 
 RESOLUTION = 0.05
 ANGLES = np.linspace(-pi, pi, 360, endpoint=False)

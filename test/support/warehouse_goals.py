@@ -9,10 +9,10 @@ import random
 import numpy as np
 from support.paths import ROOT
 
+from amr_description.maps.grid import FREE
+from amr_description.maps.pose import Pose
 from amr_description.navigation.distance_field import distances
 from amr_description.navigation.footprint import read_footprint
-from amr_description.navigation.grid import FREE
-from amr_description.navigation.pose import Pose
 from amr_description.sim.occupancy import map_of_world, MapSettings
 
 FOOTPRINT = read_footprint('[[0.3, 0.17], [0.3, -0.17], [-0.3, -0.17], [-0.3, 0.17]]')

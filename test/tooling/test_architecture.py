@@ -42,9 +42,10 @@ ARROWS = {
     'hardware': {'control', 'model'},
     'messages': {'control'},
     'controller_manager': {'controllers', 'hardware', 'control', 'model'},
-    'sim': {'control', 'model', 'navigation'},  # the map of a world
+    'maps': set(),
+    'sim': {'control', 'model', 'maps'},  # the map of a world
     'viewer': {'model'},
-    'navigation': {'model'},
+    'navigation': {'model', 'maps'},
     'ros': {'control', 'model'},
     'bag': set(),
     'bag/ros': {'bag', 'ros', 'control', 'model'},
@@ -86,7 +87,7 @@ ARROWS = {
         'doctor/host',
         'doctor/ros',
     },
-    'navigation/ros': {'navigation', 'ros', 'tf2_ros', 'model'},
+    'navigation/ros': {'navigation', 'maps', 'ros', 'tf2_ros', 'model'},
     # Its rules are pure; `host` reads this machine, `ros` the graph around it.
     'doctor': {'model', 'navigation'},
     'doctor/host': {'doctor', 'ros', 'bringup'},
@@ -146,7 +147,7 @@ ROS = {
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
 PURE = {
     'base', 'model', 'control', 'controllers', 'controller_manager', 'messages', 'navigation',
-    'bag', 'doctor',
+    'maps', 'bag', 'doctor',
 }  # fmt: skip
 # Heavy libraries have one home each.
 HOMES = {

@@ -21,8 +21,8 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 from amr_description.clock import NANOSECONDS
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import quaternion_from_yaw, Transform
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.messages import is_place, pose_message
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED

@@ -8,7 +8,7 @@ from nav_msgs.msg import OccupancyGrid as OccupancyGridMessage
 from nav_msgs.srv import GetMap
 from rclpy.node import Node
 
-from amr_description.navigation.grid import OccupancyGrid
+from amr_description.maps.grid import OccupancyGrid
 from amr_description.navigation.ros.messages import grid_message
 from amr_description.ros.qos import LATCHED
 

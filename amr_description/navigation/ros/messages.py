@@ -8,9 +8,9 @@ from geometry_msgs.msg import Pose as PoseMessage, Quaternion, TransformStamped
 from nav_msgs.msg import OccupancyGrid as OccupancyGridMessage
 import numpy as np
 
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import quaternion_from_yaw, yaw_of
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.pose import Pose
 
 _FINEST = 1e-3
 """m; cells that are smaller are a mistake, and would take all memory along a ray."""

@@ -14,8 +14,8 @@ from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
 
 from amr_description.errors import NavigationError, TransformException
+from amr_description.maps.pose import Pose
 from amr_description.navigation.costmap import Costmap, CostmapSettings
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.goals import UNKNOWN_ERROR
 from amr_description.navigation.ros.messages import (
     grid_of,

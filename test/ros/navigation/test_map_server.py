@@ -15,9 +15,9 @@ from rclpy.parameter import Parameter
 from support.running_programs import PATIENCE
 
 from amr_description.errors import MapError
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.map_files import save_map
-from amr_description.navigation.pose import Pose
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.map_files import save_map
+from amr_description.maps.pose import Pose
 from amr_description.navigation.ros.messages import grid_of
 from amr_description.nodes import map_server
 from amr_description.nodes.map_server import MapServer

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.pose import Pose
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.pose import Pose
 from amr_description.navigation.ros.messages import (
     grid_message,
     grid_of,

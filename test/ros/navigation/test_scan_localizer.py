@@ -14,8 +14,8 @@ from std_srvs.srv import Empty
 from support.localizer_host import hosted, MS
 from support.scanned_room import ANGLES, room, scan
 
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import quaternion_from_rpy, Transform
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.messages import grid_message
 from amr_description.nodes import scan_localizer
 from amr_description.nodes.scan_localizer import ScanLocalizer

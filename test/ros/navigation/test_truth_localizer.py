@@ -10,8 +10,8 @@ from simulation_interfaces.msg import Result
 from simulation_interfaces.srv import GetEntities, SetEntityState
 from support.localizer_host import hosted, MS
 
+from amr_description.maps.pose import Pose
 from amr_description.model.frames import Transform
-from amr_description.navigation.pose import Pose
 from amr_description.navigation.ros.messages import plane_pose, pose_of
 from amr_description.nodes import truth_localizer
 from amr_description.nodes.truth_localizer import TruthLocalizer

@@ -19,11 +19,11 @@ from support.paths import ROOT
 import yaml
 
 from amr_description.clock import NANOSECONDS
+from amr_description.maps.pose import wrapped
 from amr_description.model.frames import Transform
 from amr_description.navigation.ekf import Member
 from amr_description.navigation.ekf_estimator import Estimator
 from amr_description.navigation.ekf_parameters import read_parameters
-from amr_description.navigation.pose import wrapped
 from amr_description.navigation.ros.ekf_inputs import InputReader
 from amr_description.ros.messages import nanoseconds
 from amr_description.testing.simulation import Simulation

@@ -14,10 +14,10 @@ from support.warehouse_goals import (
     warehouse,
 )
 
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.drive import Drive, DriveSettings, GoalCheckerSettings, Status
 from amr_description.navigation.footprint import inscribed_radius, outline
-from amr_description.navigation.pose import Pose, wrapped
 from amr_description.navigation.regulated_pure_pursuit import PursuitSettings
 from amr_description.testing.simulation import Simulation
 

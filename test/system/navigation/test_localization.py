@@ -21,9 +21,9 @@ from support.paths import ROOT
 from support.ros_processes import running
 from support.warehouse_tour import tour
 
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.model.frames import Transform
 from amr_description.navigation.localization import MotionNoise, ray_ends, ScanTracker
-from amr_description.navigation.pose import Pose, wrapped
 from amr_description.navigation.ros.messages import plane_pose, pose_message, pose_of
 from amr_description.navigation.scan_matching import ScanMatcher
 from amr_description.ros.messages import nanoseconds

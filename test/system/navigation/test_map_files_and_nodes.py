@@ -13,9 +13,9 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from support.ros_processes import run, running
 
-from amr_description.navigation.grid import OccupancyGrid as Grid
-from amr_description.navigation.map_files import load_map, save_map
-from amr_description.navigation.pose import Pose
+from amr_description.maps.grid import OccupancyGrid as Grid
+from amr_description.maps.map_files import load_map, save_map
+from amr_description.maps.pose import Pose
 
 CELLS = np.array([[0, 100, -1], [-1, 0, 0]], np.int8)
 

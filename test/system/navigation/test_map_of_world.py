@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from support.ros_processes import PATIENCE, run, running
 
-from amr_description.navigation.map_files import load_map
+from amr_description.maps.map_files import load_map
 from amr_description.navigation.ros.messages import grid_of
 from amr_description.ros.service_calls import call, wait_until
 from amr_description.sim.occupancy import map_of_world

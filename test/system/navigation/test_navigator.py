@@ -28,7 +28,7 @@ from support.paths import ROOT
 from support.ros_processes import PATIENCE, running
 from support.warehouse_goals import CONTACT_TOPIC, feeling_robot, random_goals
 
-from amr_description.navigation.pose import Pose, wrapped
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.ros.messages import pose_message, pose_of
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.service_calls import wait_until

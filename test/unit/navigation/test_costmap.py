@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from amr_description.errors import ParameterError
+from amr_description.maps.grid import OccupancyGrid, OCCUPIED, UNKNOWN
+from amr_description.maps.pose import Pose
 from amr_description.navigation.costmap import (
     Costmap,
     CostmapSettings,
@@ -23,8 +25,6 @@ from amr_description.navigation.footprint import (
     placed,
     read_footprint,
 )
-from amr_description.navigation.grid import OccupancyGrid, OCCUPIED, UNKNOWN
-from amr_description.navigation.pose import Pose
 
 SETTINGS = CostmapSettings(inflation_radius=0.5, cost_scaling_factor=3.0, inf_is_valid=True)
 

@@ -8,6 +8,8 @@ import math
 import numpy as np
 import pytest
 
+from amr_description.maps.grid import OccupancyGrid, OCCUPIED
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.drive import (
     Command,
@@ -19,9 +21,7 @@ from amr_description.navigation.drive import (
     Status,
 )
 from amr_description.navigation.footprint import outline, placed
-from amr_description.navigation.grid import OccupancyGrid, OCCUPIED
 from amr_description.navigation.planner import GOAL_OCCUPIED, GOAL_OUTSIDE_MAP, NO_VALID_PATH
-from amr_description.navigation.pose import Pose, wrapped
 
 START = Pose(1.0, 1.0, 0.0)
 CORNERS = np.array([[0.3, 0.17], [0.3, -0.17], [-0.3, -0.17], [-0.3, 0.17]])

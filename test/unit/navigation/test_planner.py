@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from amr_description.errors import NavigationError
+from amr_description.maps.grid import OccupancyGrid, OCCUPIED, UNKNOWN
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation import planner
 from amr_description.navigation.costmap import Costmap, CostmapSettings, INSCRIBED
-from amr_description.navigation.grid import OccupancyGrid, OCCUPIED, UNKNOWN
 from amr_description.navigation.planner import plan, PlannerSettings
-from amr_description.navigation.pose import Pose, wrapped
 
 SETTINGS = PlannerSettings()
 COSTS = CostmapSettings(inflation_radius=0.6, cost_scaling_factor=3.0)

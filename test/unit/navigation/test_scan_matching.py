@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 import pytest
 from support.scanned_room import ANGLES, room, scan
 
+from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.localization import is_lost, MotionNoise, ray_ends, ScanTracker
-from amr_description.navigation.pose import Pose, wrapped
 from amr_description.navigation.scan_matching import ScanMatcher
 
 SURE = np.diag([0.01, 0.01, 0.01])

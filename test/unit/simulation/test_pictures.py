@@ -8,8 +8,8 @@ from support.paths import ROOT
 
 from amr_description import Simulation
 from amr_description.errors import SimulationError
+from amr_description.maps.images import read_image
 from amr_description.model.frames import Transform
-from amr_description.navigation.images import read_image
 from amr_description.simulation.readings import Image
 
 URDF = ROOT / 'urdf' / 'amr.urdf'

@@ -7,8 +7,8 @@ from math import pi
 import numpy as np
 import pytest
 
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.pose import Pose, wrapped
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.pose import Pose, wrapped
 
 
 def test_a_pose_and_its_inverse_cancel():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from amr_description.navigation.pose import Pose
+from amr_description.maps.pose import Pose
 
 UNKNOWN = -1
 FREE = 0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from amr_description.errors import MapDataError
-from amr_description.navigation.images import pgm, png, read_image
+from amr_description.maps.images import pgm, png, read_image
 
 GRAY = np.array([[0, 1, 205], [254, 255, 100]], np.uint8)
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from support.examples import examples
 
+from amr_description.maps.rasterization import fill_between, fill_convex, reached
 from amr_description.model.planar_hull import planar_hull
-from amr_description.navigation.rasterization import fill_between, fill_convex, reached
 
 
 def filled(corners, shape=(6, 8)):

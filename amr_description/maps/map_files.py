@@ -43,9 +43,9 @@ from numpy.typing import NDArray
 import yaml
 
 from amr_description.errors import MapDataError, MapError, MapMetadataError, ParameterError
-from amr_description.navigation.grid import FREE, OccupancyGrid, OCCUPIED, UNKNOWN
-from amr_description.navigation.images import Bytes, Image, pgm, png, read_image
-from amr_description.navigation.pose import Pose
+from amr_description.maps.grid import FREE, OccupancyGrid, OCCUPIED, UNKNOWN
+from amr_description.maps.images import Bytes, Image, pgm, png, read_image
+from amr_description.maps.pose import Pose
 from amr_description.parameter_files import load_yaml, YamlError
 from amr_description.text import encodable
 

@@ -12,16 +12,16 @@ from support.examples import examples
 import yaml
 
 from amr_description.errors import MapDataError, MapError, MapMetadataError
-from amr_description.navigation.grid import OccupancyGrid
-from amr_description.navigation.images import pgm, png, read_image
-from amr_description.navigation.map_files import (
+from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.images import pgm, png, read_image
+from amr_description.maps.map_files import (
     load_map,
     load_metadata,
     MapMode,
     save_map,
     SaveParameters,
 )
-from amr_description.navigation.pose import Pose
+from amr_description.maps.pose import Pose
 
 YAML = """\
 image: map.pgm
