@@ -12,7 +12,7 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``command_reception.py``               … which velocity command is in force
 ``rate_limiter.py``                    … limits of velocity, acceleration and jerk
 ``odometry.py``                        … wheel speeds ↔ velocity of the base; the pose
-``drive_ports.py``                     … topics that controllers of wheeled robots share
+``wheeled_drive.py``                   … their life, and the topics that they share
 ``mecanum_drive_controller.py``        a twist → four mecanum wheels; wheel states → odometry
 ``mecanum_drive_parameters.py``        … its parameters
 ``omni_wheel_drive_controller.py``     a twist → three or more omni wheels; wheel states → odometry

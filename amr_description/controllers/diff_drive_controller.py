@@ -24,7 +24,7 @@ Additions, off by default or, the lock, until somebody publishes:
 - ``enable_cmd_vel_unstamped``: plain ``geometry_msgs/msg/Twist`` on ``~/cmd_vel_unstamped``,
   besides the stamped ones; of two that arrive within one period, the unstamped one counts;
 - the lock ``emergency_stop`` (always subscribed), see
-  :class:`~amr_description.controllers.drive_ports.EmergencyStop`;
+  :class:`~amr_description.controllers.wheeled_drive.EmergencyStop`;
 - ``preserve_curvature``: a limited command keeps its arc, see
   :mod:`amr_description.controllers.rate_limiter`.
 """
@@ -35,7 +35,6 @@ from typing import Any
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
-    Controller,
     ControllerContext,
     Input,
     Output,
@@ -52,32 +51,29 @@ from amr_description.control.interfaces import (
     VELOCITY,
 )
 from amr_description.control.samples import Frames, TwistSample
-from amr_description.controllers.command_reception import CommandReception, ignore_commands
+from amr_description.controllers.command_reception import CommandReception
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters, SpeedLimits
-from amr_description.controllers.drive_ports import (
-    EmergencyStop,
-    odometry_outputs,
-    STAMPED_TWIST,
-    stamped_twist_input,
-)
 from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelSide
 from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
+from amr_description.controllers.wheeled_drive import (
+    STAMPED_TWIST,
+    stamped_twist_input,
+    WheeledDrive,
+)
 from amr_description.errors import ControllerError
 
 _UNSTAMPED = 'geometry_msgs/msg/Twist'
 
 
-class DiffDriveController(Controller):
+class DiffDriveController(WheeledDrive):
     """Drives any number of wheels on each side; see the module."""
 
     parameters_type = DiffDriveParameters
-    is_chainable = True
+    keeps_references = True
 
     def __init__(self, context: ControllerContext) -> None:
         super().__init__(context)
-        self._linear, self._angular = (
-            CommandInterface(context.name, f'{axis}/{VELOCITY}') for axis in ('linear', 'angular')
-        )
+        self._linear, self._angular = self._references
 
     # --- transitions -------------------------------------------------------------------------
 
@@ -107,7 +103,20 @@ class DiffDriveController(Controller):
         )
         self._gate = PublishGate(int(NANOSECONDS / parameters.publish_rate))
         self._take_wheels((), ())
-        self._make_ports(parameters)
+        self._odometry = self._reckoning.odometry
+        self._frames = Frames(
+            *parameters.frame_ids(self.context.namespace),
+            parameters.pose_covariance_diagonal,
+            parameters.twist_covariance_diagonal,
+        )
+        topics = '~/odom', '/tf'
+        self._make_ports(stamped_twist_input(), topics, enable_tf=parameters.enable_odom_tf)
+        self._unstamped: Input[TwistSample] = Input(
+            Port('~/cmd_vel_unstamped', _UNSTAMPED, sample=TwistSample)
+        )
+        self._command_out: Output[TwistSample] = Output(
+            Port('~/cmd_vel_out', STAMPED_TWIST, sample=TwistSample)
+        )
 
     def command_interfaces(self) -> InterfaceRequest:
         """Return the velocity command of every wheel: the left side, then the right."""
@@ -118,10 +127,6 @@ class DiffDriveController(Controller):
         if self._parameters.open_loop:
             return NO_INTERFACES
         return self._wheel_interfaces(POSITION if self._parameters.position_feedback else VELOCITY)
-
-    def references(self) -> tuple[CommandInterface, ...]:
-        """Return ``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
-        return self._linear, self._angular
 
     def inputs(self) -> tuple[Input[Any], ...]:
         """Return ``~/cmd_vel``, if enabled ``~/cmd_vel_unstamped``, and the lock."""
@@ -142,7 +147,7 @@ class DiffDriveController(Controller):
         self._take_wheels(commands, states)
         if self._is_fresh:
             self._reception.forget(time)
-        self._set_references(math.nan, math.nan)
+        self._set_references(self._none)
         self._limiter.forget()
         self._reckoning.hold(time)
 
@@ -152,7 +157,7 @@ class DiffDriveController(Controller):
         self._reception.forget(time)
         self._left.drive(0.0)
         self._right.drive(0.0)
-        self._set_references(math.nan, math.nan)
+        self._set_references(self._none)
         self._take_wheels((), ())
 
     def reset(self, time: int) -> None:
@@ -163,15 +168,13 @@ class DiffDriveController(Controller):
         for port in self.inputs():
             port.drain()
         self._reception.forget(time)
-        self._set_references(0.0, 0.0)
+        self._set_references(self._held)
 
     def set_clock(self, time: int) -> None:
         """Keep pose and speed; the timeout starts now."""
         self._reckoning.set_clock(time)
         self._gate.reset()
-        for port in self.inputs():
-            port.drain()
-        self._reception.forget(time)
+        super().set_clock(time)
 
     # --- the cycle ---------------------------------------------------------------------------
 
@@ -189,34 +192,17 @@ class DiffDriveController(Controller):
         self._left.drive(linear - turn)
         self._right.drive(linear + turn)
 
-    def _update_references(self, time: int, period: int) -> None:
-        """Take the command of the topics; in chained mode the preceding controller sets it."""
-        if self._emergency_stop.is_engaged:
-            self._reception.discard(self.inputs(), time)
-            self._set_references(0.0, 0.0)
-            return
-        if self.is_chained:
-            ignore_commands(self.inputs(), self.log)
-            return
-        # Queued messages were sent after the previous update: the sender's clock showed its time.
-        now, reception = time - period, self._reception
-        if stamped := self._command.drain():
-            reception.receive(stamped, now)
+    def _receive(self, now: int) -> None:
+        super()._receive(now)
         if unstamped := self._unstamped.drain():
-            reception.receive_unstamped(unstamped, now)
-        twist = reception.in_force(time)
-        if twist is not None:
-            self._set_references(*twist)
+            self._reception.receive_unstamped(unstamped, now)
 
-    def _set_references(self, linear: float, angular: float) -> None:
-        self._linear.value, self._angular.value = linear, angular
+    def _set_references(self, values: Sequence[float]) -> None:
+        self._linear.value, self._angular.value = values
 
     def _publish(self, time: int, linear: float, angular: float) -> None:
         if self._gate.passes(time):
-            sample = self._reckoning.odometry.sample(time, self._frames)
-            self._odom.send(sample)
-            if self._parameters.enable_odom_tf:
-                self._transform.send(sample)
+            self._publish_odometry(time)
         if self._parameters.publish_limited_velocity:
             self._command_out.send(TwistSample(time, linear, angular, self._frames.child_frame_id))
 
@@ -249,22 +235,6 @@ class DiffDriveController(Controller):
                 'to NAN',
             )
         return limits.limiter()
-
-    def _make_ports(self, parameters: DiffDriveParameters) -> None:
-        self._frames = Frames(
-            *parameters.frame_ids(self.context.namespace),
-            parameters.pose_covariance_diagonal,
-            parameters.twist_covariance_diagonal,
-        )
-        self._emergency_stop = EmergencyStop(self.log)
-        self._command = stamped_twist_input()
-        self._unstamped: Input[TwistSample] = Input(
-            Port('~/cmd_vel_unstamped', _UNSTAMPED, sample=TwistSample)
-        )
-        self._odom, self._transform = odometry_outputs('~/odom', '/tf')
-        self._command_out: Output[TwistSample] = Output(
-            Port('~/cmd_vel_out', STAMPED_TWIST, sample=TwistSample)
-        )
 
 
 class PublishGate:

@@ -57,6 +57,12 @@ class GazeboDiffDrive(DiffDriveController):
     parameters_type = GazeboDiffDriveParameters
     _parameters: GazeboDiffDriveParameters
 
+    def configure(self, parameters: DiffDriveParameters) -> None:
+        """Check the parameters against each other, and set the pose to the origin."""
+        super().configure(parameters)
+        twist = Port('~/cmd_vel', 'geometry_msgs/msg/Twist', sample=TwistSample)
+        self._unstamped = Input(twist)
+
     def inputs(self) -> tuple[Input[Any], ...]:
         """Return ``~/cmd_vel`` and the lock."""
         return self._unstamped, self._emergency_stop
@@ -75,7 +81,7 @@ class GazeboDiffDrive(DiffDriveController):
     ) -> None:
         """Take the wheels, and hold them at rest until the first command."""
         super().activate(commands, states, time)
-        self._set_references(0.0, 0.0)
+        self._set_references(self._held)
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, limit it, update odometry, publish, drive the wheels."""
@@ -83,11 +89,6 @@ class GazeboDiffDrive(DiffDriveController):
             if isinstance(side, _AcceleratedSide):
                 side.dt = period / NANOSECONDS
         super().update(time, period)
-
-    def _make_ports(self, parameters: DiffDriveParameters) -> None:
-        super()._make_ports(parameters)
-        twist = Port('~/cmd_vel', 'geometry_msgs/msg/Twist', sample=TwistSample)
-        self._unstamped = Input(twist)
 
     def _take_wheels(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface]

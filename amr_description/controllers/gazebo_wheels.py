@@ -97,14 +97,11 @@ class GazeboMecanumDrive(MecanumDriveController):
         """Set the pose to the origin."""
         super().configure(parameters)
         self._reception = LatestTwist(self.log, HOLONOMIC)
+        self._command = _twist_input()
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odometry`` and, if it is wanted, the transform."""
         return (self._odom, self._transform) if self._parameters.enable_odom_tf else (self._odom,)
-
-    def _make_ports(self, parameters: MecanumDriveParameters) -> None:
-        super()._make_ports(parameters)
-        self._command = _twist_input()
 
 
 class GazeboAckermannDrive(AckermannSteeringController):
@@ -117,6 +114,7 @@ class GazeboAckermannDrive(AckermannSteeringController):
         """Check the numbers of joints and the sizes, and set the pose to the origin."""
         super().configure(parameters)
         self._reception = _LatestSteering(self.log, self._parameters)
+        self._command = _twist_input()
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return those of ``~/odometry`` and the transform that are wanted."""
@@ -125,10 +123,6 @@ class GazeboAckermannDrive(AckermannSteeringController):
             (self._transform, self._parameters.enable_odom_tf),
         )
         return tuple(output for output, is_wanted in wanted if is_wanted)
-
-    def _make_ports(self, parameters: SteeringParameters) -> None:
-        super()._make_ports(parameters)
-        self._command = _twist_input()
 
 
 class _LatestSteering(LatestTwist):

@@ -30,9 +30,6 @@ from typing import Any, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
-    Controller,
-    ControllerContext,
-    Input,
     Output,
     Port,
 )
@@ -48,14 +45,7 @@ from amr_description.control.samples import (
 )
 from amr_description.controllers.command_reception import (
     HOLONOMIC,
-    ignore_commands,
     ReferenceReception,
-)
-from amr_description.controllers.drive_ports import (
-    EmergencyStop,
-    odometry_outputs,
-    reference_input,
-    warn_of_one_shot_reference,
 )
 from amr_description.controllers.holonomic_odometry import HolonomicOdometry
 from amr_description.controllers.mecanum_drive_parameters import (
@@ -64,12 +54,16 @@ from amr_description.controllers.mecanum_drive_parameters import (
 )
 from amr_description.controllers.odometry import LEAST_PERIOD
 from amr_description.controllers.rate_limiter import AxisLimiter
+from amr_description.controllers.wheeled_drive import (
+    reference_input,
+    warn_of_one_shot_reference,
+    WheeledDrive,
+)
 
 Twist: TypeAlias = tuple[float, float, float]
 """m/s along x and y, rad/s about z."""
 
 _AT_REST = (0.0, 0.0, 0.0)
-_NONE = (math.nan, math.nan, math.nan)
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,20 +122,12 @@ class MecanumKinematics:
         return cosine * x + sine * y, -sine * x + cosine * y, angular
 
 
-class MecanumDriveController(Controller):
+class MecanumDriveController(WheeledDrive):
     """Drives four mecanum wheels; see the module."""
 
     parameters_type = MecanumDriveParameters
-    is_chainable = True
-
-    def __init__(self, context: ControllerContext) -> None:
-        super().__init__(context)
-        axes = ('linear/x', 'linear/y', 'angular/z')
-        self._references = tuple(
-            CommandInterface(context.name, f'{axis}/{VELOCITY}') for axis in axes
-        )
-        self._wheels: Sequence[CommandInterface] = ()
-        self._states: Sequence[StateInterface] = ()
+    axes = ('linear/x', 'linear/y', 'angular/z')
+    _odometry: HolonomicOdometry
 
     # --- transitions -------------------------------------------------------------------------
 
@@ -157,7 +143,20 @@ class MecanumDriveController(Controller):
         timeout = round(parameters.reference_timeout * NANOSECONDS)
         self._reception = ReferenceReception(timeout, self.log, HOLONOMIC, stops_at_outdated=True)
         warn_of_one_shot_reference(self, timeout)
-        self._make_ports(parameters)
+        self._frames = Frames(
+            *parameters.frame_ids(self.context.namespace),
+            parameters.pose_covariance_diagonal,
+            parameters.twist_covariance_diagonal,
+        )
+        topics = '~/odometry', parameters.tf_odometry_topic
+        self._make_ports(reference_input(), topics, enable_tf=parameters.enable_odom_tf)
+        self._state: Output[MecanumStateSample] = Output(
+            Port(
+                '~/controller_state',
+                'control_msgs/msg/MecanumDriveControllerState',
+                sample=MecanumStateSample,
+            )
+        )
 
     def command_interfaces(self) -> InterfaceRequest:
         """Return the velocity commands: front left, front right, rear right, rear left."""
@@ -169,14 +168,6 @@ class MecanumDriveController(Controller):
         names = self._parameters.state_joints
         return InterfaceRequest.individual(f'{name}/{VELOCITY}' for name in names)
 
-    def references(self) -> tuple[CommandInterface, ...]:
-        """Return ``linear/x``, ``linear/y`` (m/s) and ``angular/z`` (rad/s), all ``/velocity``."""
-        return self._references
-
-    def inputs(self) -> tuple[Input[Any], ...]:
-        """Return ``~/reference`` and the lock."""
-        return self._command, self._emergency_stop
-
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odometry``, ``~/tf_odometry`` and ``~/controller_state``."""
         return self._odom, self._transform, self._state
@@ -185,49 +176,29 @@ class MecanumDriveController(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the wheels, without a command."""
-        self._wheels, self._states = commands, states
-        self._reception.forget(time)
+        super().activate(commands, states, time)
         self._forget_limits()
-        self._set_references(_NONE)
-
-    def deactivate(self, time: int) -> None:
-        """Stop every wheel; the pose stays."""
-        self._drive((0.0,) * 4)
-        self._reception.forget(time)
-        self._wheels = self._states = ()
 
     def reset(self, time: int) -> None:
         """Start over at the origin."""
-        self._odometry.reset()
+        super().reset(time)
         self._forget_limits()
-        self.set_clock(time)
-
-    def set_clock(self, time: int) -> None:
-        """Keep the pose; there is no command."""
-        self._command.drain()
-        self._reception.forget(time)
-        self._set_references(_NONE)
 
     # --- the cycle ---------------------------------------------------------------------------
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, update odometry, drive the wheels, publish."""
-        if self._emergency_stop.is_engaged:
-            self._reception.discard(self.inputs(), time)
-            self._set_references(_NONE)
-        elif self.is_chained:
-            ignore_commands(self.inputs(), self.log)
-        else:
-            self._reception.receive(self._command.drain(), time - period)
-            self._set_references(self._reception.in_force(time) or _NONE)
+        self._update_references(time, period)
         states = tuple(state.value for state in self._states)
         if period >= LEAST_PERIOD and all(map(math.isfinite, states)):
             twist = self._kinematics.twist(states)
             self._odometry.update_after_turn(twist, period / NANOSECONDS)
         reference = tuple(each.value for each in self._references)
-        self._drive(self._kinematics.wheels(self._limited(reference, period / NANOSECONDS)))
-        self._publish(time, states, reference)
-        self._set_references(_NONE)
+        limited = self._limited(reference, period / NANOSECONDS)
+        self._command_joints(self._kinematics.wheels(limited))
+        self._publish_odometry(time)
+        self._state.send(MecanumStateSample(time, self._frames.frame_id, states, reference))
+        self._set_references(self._none)
 
     def _limited(self, reference: tuple[float, ...], dt: float) -> Twist:
         wanted = reference if all(map(math.isfinite, reference)) else _AT_REST
@@ -236,38 +207,6 @@ class MecanumDriveController(Controller):
         )
         return linear, lateral, angular
 
-    def _drive(self, speeds: tuple[float, ...]) -> None:
-        for wheel, speed in zip(self._wheels, speeds, strict=False):
-            wheel.value = speed
-
-    def _set_references(self, values: tuple[float, ...]) -> None:
-        for reference, value in zip(self._references, values, strict=True):
-            reference.value = value
-
     def _forget_limits(self) -> None:
         for limiter in self._limiters:
             limiter.forget()
-
-    def _publish(self, time: int, wheels: tuple[float, ...], reference: tuple[float, ...]) -> None:
-        sample = self._odometry.sample(time, self._frames)
-        self._odom.send(sample)
-        if self._parameters.enable_odom_tf:
-            self._transform.send(sample)
-        self._state.send(MecanumStateSample(time, self._frames.frame_id, wheels, reference))
-
-    def _make_ports(self, parameters: MecanumDriveParameters) -> None:
-        self._frames = Frames(
-            *parameters.frame_ids(self.context.namespace),
-            parameters.pose_covariance_diagonal,
-            parameters.twist_covariance_diagonal,
-        )
-        self._emergency_stop = EmergencyStop(self.log)
-        self._command = reference_input()
-        self._odom, self._transform = odometry_outputs('~/odometry', parameters.tf_odometry_topic)
-        self._state: Output[MecanumStateSample] = Output(
-            Port(
-                '~/controller_state',
-                'control_msgs/msg/MecanumDriveControllerState',
-                sample=MecanumStateSample,
-            )
-        )

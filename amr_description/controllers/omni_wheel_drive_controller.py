@@ -18,10 +18,9 @@ Differences from omni_wheel_drive_controller 4.x:
 from collections.abc import Sequence
 from dataclasses import dataclass
 import math
-from typing import Any, ClassVar, TypeAlias
+from typing import ClassVar, TypeAlias
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Controller, ControllerContext, Input, Output
 from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
@@ -35,16 +34,11 @@ from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import (
     CommandReception,
     HOLONOMIC,
-    ignore_commands,
 )
 from amr_description.controllers.diff_drive_parameters import LENGTH, tf_prefix
-from amr_description.controllers.drive_ports import (
-    EmergencyStop,
-    odometry_outputs,
-    stamped_twist_input,
-)
 from amr_description.controllers.holonomic_odometry import HolonomicOdometry
 from amr_description.controllers.odometry import LEAST_PERIOD
+from amr_description.controllers.wheeled_drive import stamped_twist_input, WheeledDrive
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
@@ -158,20 +152,13 @@ class OmniKinematics:
         return [self.offset + 2.0 * math.pi * index / self.count for index in range(self.count)]
 
 
-class OmniWheelDriveController(Controller):
+class OmniWheelDriveController(WheeledDrive):
     """Drives three or more omni wheels; see the module."""
 
     parameters_type = OmniWheelDriveParameters
-    is_chainable = True
-
-    def __init__(self, context: ControllerContext) -> None:
-        super().__init__(context)
-        axes = ('linear/x', 'linear/y', 'angular/z')
-        self._references = tuple(
-            CommandInterface(context.name, f'{axis}/{VELOCITY}') for axis in axes
-        )
-        self._wheels: Sequence[CommandInterface] = ()
-        self._states: Sequence[StateInterface] = ()
+    axes = ('linear/x', 'linear/y', 'angular/z')
+    _odometry: HolonomicOdometry
+    keeps_references = True
 
     # --- transitions -------------------------------------------------------------------------
 
@@ -192,7 +179,17 @@ class OmniWheelDriveController(Controller):
         self._last_positions: tuple[float, ...] | None = None
         timeout = round(parameters.cmd_vel_timeout * NANOSECONDS)
         self._reception = CommandReception(timeout, self.log, HOLONOMIC)
-        self._make_ports(parameters)
+        prefix = tf_prefix(
+            parameters.tf_frame_prefix_enable, parameters.tf_frame_prefix, self.context.namespace
+        )
+        self._frames = Frames(
+            prefix + parameters.odom_frame_id,
+            prefix + parameters.base_frame_id,
+            parameters.diagonal_covariance.pose,
+            parameters.diagonal_covariance.twist,
+        )
+        topics = '~/odom', '/tf'
+        self._make_ports(stamped_twist_input(), topics, enable_tf=parameters.enable_odom_tf)
 
     def command_interfaces(self) -> InterfaceRequest:
         """Return the velocity command of every wheel."""
@@ -204,67 +201,31 @@ class OmniWheelDriveController(Controller):
             return NO_INTERFACES
         return self._wheel_interfaces(POSITION if self._parameters.position_feedback else VELOCITY)
 
-    def references(self) -> tuple[CommandInterface, ...]:
-        """Return ``linear/x``, ``linear/y`` (m/s) and ``angular/z`` (rad/s), all ``/velocity``."""
-        return self._references
-
-    def inputs(self) -> tuple[Input[Any], ...]:
-        """Return ``~/cmd_vel`` and the lock."""
-        return self._command, self._emergency_stop
-
-    def outputs(self) -> tuple[Output[Any], ...]:
-        """Return ``~/odom`` and ``/tf``."""
-        return self._odom, self._transform
-
     def activate(
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the wheels; nothing is written before the first command, or the timeout."""
-        self._wheels, self._states = commands, states
+        super().activate(commands, states, time)
         self._last_positions = None
-        self._reception.forget(time)
-        self._set_references(_NONE)
-
-    def deactivate(self, time: int) -> None:
-        """Stop every wheel; the pose stays."""
-        self._drive((0.0,) * len(self._wheels))
-        self._reception.forget(time)
-        self._set_references(_NONE)
-        self._wheels = self._states = ()
 
     def reset(self, time: int) -> None:
         """Start over at the origin."""
-        self._odometry.reset()
+        super().reset(time)
         self._last_positions = None
-        self.set_clock(time)
-
-    def set_clock(self, time: int) -> None:
-        """Keep the pose and, until the timeout, the speed."""
-        self._command.drain()
-        self._reception.forget(time)
 
     # --- the cycle ---------------------------------------------------------------------------
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, update odometry, publish, drive the wheels."""
-        if self._emergency_stop.is_engaged:
-            self._reception.discard(self.inputs(), time)
-            self._set_references((0.0, 0.0, 0.0))
-        elif self.is_chained:
-            ignore_commands(self.inputs(), self.log)
-        else:
-            self._reception.receive(self._command.drain(), time - period)
-            twist = self._reception.in_force(time)
-            if twist is not None:
-                self._set_references(twist)
+        self._update_references(time, period)
         linear, lateral, angular = (reference.value for reference in self._references)
         if not all(map(math.isfinite, (linear, lateral, angular))):
             return
         if period >= LEAST_PERIOD:
             dt = period / NANOSECONDS
             self._odometry.update(self._measured((linear, lateral, angular), dt), dt)
-        self._publish(time)
-        self._drive(self._kinematics.wheels((linear, lateral, angular)))
+        self._publish_odometry(time)
+        self._command_joints(self._kinematics.wheels((linear, lateral, angular)))
 
     def _measured(self, twist: Twist, dt: float) -> Twist:
         """Return the twist of the wheels or, in open loop, that of the command."""
@@ -282,36 +243,8 @@ class OmniWheelDriveController(Controller):
             values = tuple((a - b) / dt for a, b in zip(values, last, strict=True))
         return self._kinematics.twist(values)
 
-    def _drive(self, speeds: tuple[float, ...]) -> None:
-        for wheel, speed in zip(self._wheels, speeds, strict=True):
-            wheel.value = speed
-
-    def _set_references(self, values: tuple[float, ...]) -> None:
-        for reference, value in zip(self._references, values, strict=True):
-            reference.value = value
-
-    def _publish(self, time: int) -> None:
-        sample = self._odometry.sample(time, self._frames)
-        self._odom.send(sample)
-        if self._parameters.enable_odom_tf:
-            self._transform.send(sample)
-
     # --- made at configure -------------------------------------------------------------------
 
     def _wheel_interfaces(self, interface: str) -> InterfaceRequest:
         names = self._parameters.wheel_names
         return InterfaceRequest.individual(f'{name}/{interface}' for name in names)
-
-    def _make_ports(self, parameters: OmniWheelDriveParameters) -> None:
-        prefix = tf_prefix(
-            parameters.tf_frame_prefix_enable, parameters.tf_frame_prefix, self.context.namespace
-        )
-        self._frames = Frames(
-            prefix + parameters.odom_frame_id,
-            prefix + parameters.base_frame_id,
-            parameters.diagonal_covariance.pose,
-            parameters.diagonal_covariance.twist,
-        )
-        self._emergency_stop = EmergencyStop(self.log)
-        self._command = stamped_twist_input()
-        self._odom, self._transform = odometry_outputs('~/odom', '/tf')

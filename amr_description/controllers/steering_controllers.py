@@ -28,7 +28,7 @@ import math
 from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Port
+from amr_description.control.contracts import Output, Port
 from amr_description.control.interfaces import (
     CommandInterface,
     InterfaceRequest,
@@ -41,15 +41,8 @@ from amr_description.control.samples import (
     SteeringStateSample,
 )
 from amr_description.controllers.command_reception import (
-    ignore_commands,
     PLANAR,
     ReferenceReception,
-)
-from amr_description.controllers.drive_ports import (
-    EmergencyStop,
-    odometry_outputs,
-    reference_input,
-    warn_of_one_shot_reference,
 )
 from amr_description.controllers.odometry import LEAST_PERIOD, PlanarOdometry
 from amr_description.controllers.steering_parameters import (
@@ -58,29 +51,24 @@ from amr_description.controllers.steering_parameters import (
     SteeringParameters,
     TricycleSteeringParameters,
 )
+from amr_description.controllers.wheeled_drive import (
+    reference_input,
+    warn_of_one_shot_reference,
+    WheeledDrive,
+)
 from amr_description.errors import ControllerError
 
-_NONE = (math.nan, math.nan)
 _NUMBERS = {1: 'one', 2: 'two'}
 
 
-class SteeringController(Controller):
+class SteeringController(WheeledDrive):
     """What the three steering controllers have in common."""
-
-    is_chainable = True
 
     layout: ClassVar[str]
     """The name of the layout in messages."""
     traction_count: ClassVar[int]
     steering_count: ClassVar[int]
-
-    def __init__(self, context: ControllerContext) -> None:
-        super().__init__(context)
-        self._references = tuple(
-            CommandInterface(context.name, f'{axis}/{VELOCITY}') for axis in ('linear', 'angular')
-        )
-        self._commands: Sequence[CommandInterface] = ()
-        self._states: Sequence[StateInterface] = ()
+    _odometry: PlanarOdometry
 
     # --- transitions -------------------------------------------------------------------------
 
@@ -98,7 +86,21 @@ class SteeringController(Controller):
         warn_of_one_shot_reference(self, timeout)
         self._steered = 0.0
         self._last_positions: tuple[float, ...] | None = None
-        self._make_ports(parameters)
+        self._frames = Frames(
+            parameters.odom_frame_id,
+            parameters.base_frame_id,
+            parameters.pose_covariance_diagonal,
+            parameters.twist_covariance_diagonal,
+        )
+        topics = '~/odometry', parameters.tf_odometry_topic
+        self._make_ports(reference_input(), topics, enable_tf=parameters.enable_odom_tf)
+        self._state: Output[SteeringStateSample] = Output(
+            Port(
+                '~/controller_state',
+                'control_msgs/msg/SteeringControllerStatus',
+                sample=SteeringStateSample,
+            )
+        )
 
     def command_interfaces(self) -> InterfaceRequest:
         """Return the velocities of the driven joints, then the positions of the steered ones."""
@@ -119,14 +121,6 @@ class SteeringController(Controller):
             )
         )
 
-    def references(self) -> tuple[CommandInterface, ...]:
-        """Return ``linear/velocity`` in m/s and ``angular/velocity`` in rad/s."""
-        return self._references
-
-    def inputs(self) -> tuple[Input[Any], ...]:
-        """Return ``~/reference`` and the lock."""
-        return self._command, self._emergency_stop
-
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odometry``, ``~/tf_odometry`` and ``~/controller_state``."""
         return self._odom, self._transform, self._state
@@ -135,41 +129,19 @@ class SteeringController(Controller):
         self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
     ) -> None:
         """Take the joints, without a command."""
-        self._commands, self._states = commands, states
+        super().activate(commands, states, time)
         self._last_positions = None
-        self._reception.forget(time)
-        self._set_references(_NONE)
-
-    def deactivate(self, time: int) -> None:
-        """Stop the driven wheels; the steering and the pose stay."""
-        self._stop()
-        self._reception.forget(time)
-        self._commands = self._states = ()
 
     def reset(self, time: int) -> None:
         """Start over at the origin."""
-        self._odometry.reset()
+        super().reset(time)
         self._last_positions = None
-        self.set_clock(time)
-
-    def set_clock(self, time: int) -> None:
-        """Keep the pose; there is no command."""
-        self._command.drain()
-        self._reception.forget(time)
-        self._set_references(_NONE)
 
     # --- the cycle ---------------------------------------------------------------------------
 
     def update(self, time: int, period: int) -> None:
         """Receive a command, update odometry, drive and steer, publish."""
-        if self._emergency_stop.is_engaged:
-            self._reception.discard(self.inputs(), time)
-            self._set_references(_NONE)
-        elif self.is_chained:
-            ignore_commands(self.inputs(), self.log)
-        else:
-            self._reception.receive(self._command.drain(), time - period)
-            self._set_references(self._reception.in_force(time) or _NONE)
+        self._update_references(time, period)
         linear, angular = (reference.value for reference in self._references)
         is_commanded = math.isfinite(linear) and math.isfinite(angular)
         if period >= LEAST_PERIOD:
@@ -179,8 +151,9 @@ class SteeringController(Controller):
             self._drive(linear, angular)
         else:
             self._stop()
-        self._publish(time)
-        self._set_references(_NONE)
+        self._publish_odometry(time)
+        self._publish_state(time)
+        self._set_references(self._none)
 
     def _update_odometry(self, linear: float, angular: float, dt: float) -> None:
         if self._parameters.open_loop:
@@ -205,23 +178,14 @@ class SteeringController(Controller):
             None if self._parameters.open_loop else self._steered,
             reduces_speed=self._parameters.reduce_wheel_speed_until_steering_reached,
         )
-        values = (*commands.traction, *commands.steering)
-        for command, value in zip(self._commands, values, strict=True):
-            command.value = value
+        self._command_joints((*commands.traction, *commands.steering))
 
     def _stop(self) -> None:
+        """Stop the driven wheels; the steering stays."""
         for command in self._commands[: self.traction_count]:
             command.value = 0.0
 
-    def _set_references(self, values: tuple[float, ...]) -> None:
-        for reference, value in zip(self._references, values, strict=True):
-            reference.value = value
-
-    def _publish(self, time: int) -> None:
-        sample = self._odometry.sample(time, self._frames)
-        self._odom.send(sample)
-        if self._parameters.enable_odom_tf:
-            self._transform.send(sample)
+    def _publish_state(self, time: int) -> None:
         count = self.traction_count
         states = tuple(state.value for state in self._states)
         commands = tuple(command.value for command in self._commands)
@@ -253,24 +217,6 @@ class SteeringController(Controller):
                 f'{required}, but {len(states)} state interface names were provided'
             )
         return states or joints
-
-    def _make_ports(self, parameters: SteeringParameters) -> None:
-        self._frames = Frames(
-            parameters.odom_frame_id,
-            parameters.base_frame_id,
-            parameters.pose_covariance_diagonal,
-            parameters.twist_covariance_diagonal,
-        )
-        self._emergency_stop = EmergencyStop(self.log)
-        self._command = reference_input()
-        self._odom, self._transform = odometry_outputs('~/odometry', parameters.tf_odometry_topic)
-        self._state: Output[SteeringStateSample] = Output(
-            Port(
-                '~/controller_state',
-                'control_msgs/msg/SteeringControllerStatus',
-                sample=SteeringStateSample,
-            )
-        )
 
 
 class BicycleSteeringController(SteeringController):

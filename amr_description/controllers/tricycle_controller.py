@@ -15,15 +15,12 @@ finite is warned of, and is none; the warnings of stamps are those of the diff_d
 without the package ackermann_msgs, which is not part of this one, ``~/cmd_ackermann`` is left out.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 import math
 from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
-    Controller,
-    Input,
     Output,
     Port,
     Service,
@@ -31,10 +28,8 @@ from amr_description.control.contracts import (
     Severity,
 )
 from amr_description.control.interfaces import (
-    CommandInterface,
     InterfaceRequest,
     POSITION,
-    StateInterface,
     VELOCITY,
 )
 from amr_description.control.samples import (
@@ -45,13 +40,9 @@ from amr_description.control.samples import (
 from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.command_reception import CommandReception
 from amr_description.controllers.diff_drive_parameters import LENGTH
-from amr_description.controllers.drive_ports import (
-    EmergencyStop,
-    odometry_outputs,
-    stamped_twist_input,
-)
 from amr_description.controllers.odometry import LEAST_PERIOD, PlanarOdometry
 from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
+from amr_description.controllers.wheeled_drive import stamped_twist_input, WheeledDrive
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
 from amr_description.parameters import group, parameter
@@ -105,10 +96,13 @@ class TricycleParameters:
     steering: SteeringLimits = group('steering', SteeringLimits)
 
 
-class TricycleController(Controller):
+class TricycleController(WheeledDrive):
     """Drives and steers one wheel; see the module."""
 
     parameters_type = TricycleParameters
+    is_chainable = False
+    axes = ()
+    _odometry: PlanarOdometry
 
     # --- transitions -------------------------------------------------------------------------
 
@@ -119,10 +113,28 @@ class TricycleController(Controller):
         self._parameters = parameters
         self._odometry = PlanarOdometry(parameters.velocity_rolling_window_size)
         self._reception = CommandReception(parameters.cmd_vel_timeout * _MILLISECOND, self.log)
-        self._commands: Sequence[CommandInterface] = ()
-        self._states: Sequence[StateInterface] = ()
         self._last = self._before_last = _AT_REST
-        self._make_ports(parameters)
+        self._frames = Frames(
+            parameters.odom_frame_id,
+            parameters.base_frame_id,
+            parameters.pose_covariance_diagonal,
+            parameters.twist_covariance_diagonal,
+        )
+        self._make_ports(
+            stamped_twist_input(), ('~/odom', '/tf'), enable_tf=parameters.enable_odom_tf
+        )
+        self._command_out: Output[AckermannSample] = Output(
+            Port(
+                '~/cmd_ackermann',
+                'ackermann_msgs/msg/AckermannDrive',
+                sample=AckermannSample,
+                is_optional=True,
+            )
+        )
+        self._reset_odometry: Service[EmptySample, EmptySample] = Service(
+            ServicePort('~/reset_odometry', 'std_srvs/srv/Empty', EmptySample, EmptySample),
+            self._reset,
+        )
 
     def command_interfaces(self) -> InterfaceRequest:
         """Return the velocity of the driven joint, and the position of the steered one."""
@@ -131,10 +143,6 @@ class TricycleController(Controller):
     def state_interfaces(self) -> InterfaceRequest:
         """Return the same."""
         return self._interfaces()
-
-    def inputs(self) -> tuple[Input[Any], ...]:
-        """Return ``~/cmd_vel`` and the lock."""
-        return self._command, self._emergency_stop
 
     def outputs(self) -> tuple[Output[Any], ...]:
         """Return ``~/odom`` and, if enabled, ``/tf`` and ``~/cmd_ackermann``."""
@@ -146,30 +154,15 @@ class TricycleController(Controller):
         """Return ``~/reset_odometry``."""
         return (self._reset_odometry,)
 
-    def activate(
-        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
-    ) -> None:
-        """Take the joints, which are commanded 0 until the first command."""
-        self._commands, self._states = commands, states
-        self._reception.forget(time)
-
     def deactivate(self, time: int) -> None:
         """Stop the wheel, and steer straight; the pose stays."""
-        self._reception.forget(time)
         self._last = self._before_last = _AT_REST
-        self._drive(0.0, 0.0)
-        self._commands = self._states = ()
+        super().deactivate(time)
 
     def reset(self, time: int) -> None:
         """Start over at the origin."""
-        self._odometry.reset()
+        super().reset(time)
         self._last = self._before_last = _AT_REST
-        self.set_clock(time)
-
-    def set_clock(self, time: int) -> None:
-        """Keep the pose; the timeout starts now."""
-        self._command.drain()
-        self._reception.forget(time)
 
     # --- the cycle ---------------------------------------------------------------------------
 
@@ -194,7 +187,7 @@ class TricycleController(Controller):
         self._last, self._before_last = limited, self._last
         if self._parameters.publish_ackermann_command:
             self._command_out.send(AckermannSample(*limited))
-        self._drive(*limited)
+        self._command_joints(limited)
 
     def wheel(self, linear: float, angular: float) -> tuple[float, float]:
         """Return speed (rad/s) and angle (rad) of the wheel for a twist, m/s and rad/s."""
@@ -218,10 +211,6 @@ class TricycleController(Controller):
         turn = rim * math.sin(angle) / self._parameters.wheelbase
         self._odometry.update(rim * math.cos(angle) * dt, turn * dt, dt)
 
-    def _drive(self, speed: float, angle: float) -> None:
-        for command, value in zip(self._commands, (speed, angle), strict=True):
-            command.value = value
-
     def _publish(self, time: int) -> None:
         sample = self._odometry.sample(time, self._frames)
         if self._parameters.enable_odom_tf:
@@ -244,29 +233,6 @@ class TricycleController(Controller):
         self.log(Severity.INFO, 'Odometry reset requested')
         self._odometry.reset()
         return request
-
-    def _make_ports(self, parameters: TricycleParameters) -> None:
-        self._frames = Frames(
-            parameters.odom_frame_id,
-            parameters.base_frame_id,
-            parameters.pose_covariance_diagonal,
-            parameters.twist_covariance_diagonal,
-        )
-        self._emergency_stop = EmergencyStop(self.log)
-        self._command = stamped_twist_input()
-        self._odom, self._transform = odometry_outputs('~/odom', '/tf')
-        self._command_out: Output[AckermannSample] = Output(
-            Port(
-                '~/cmd_ackermann',
-                'ackermann_msgs/msg/AckermannDrive',
-                sample=AckermannSample,
-                is_optional=True,
-            )
-        )
-        self._reset_odometry: Service[EmptySample, EmptySample] = Service(
-            ServicePort('~/reset_odometry', 'std_srvs/srv/Empty', EmptySample, EmptySample),
-            self._reset,
-        )
 
 
 def _speed_scale(error: float) -> float:

@@ -9,7 +9,7 @@ from support.wheel_bench import PERIOD, WheelBench
 from amr_description.control.contracts import Severity
 from amr_description.control.samples import FlagSample, TwistSample
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.drive_ports import EMERGENCY_STOP, EmergencyStop
+from amr_description.controllers.wheeled_drive import EMERGENCY_STOP, EmergencyStop
 
 CORNERS = ('front_left', 'front_right', 'rear_right', 'rear_left')
 SIDES = {'left_wheel_names': ['left'], 'right_wheel_names': ['right']}
