@@ -24,9 +24,12 @@ export interface Socket {
   onOpen: () => void;
   onClose: (reason: string) => void;
   onMessage: (data: string | ArrayBuffer) => void;
+  /** The page was busy for so many s, and its `drive` was left: none is sent until {@link rest}. */
+  onLeft: (seconds: number) => void;
   /** A text frame; a `drive` is repeated until the next one, a `stop`, or {@link rest}. */
   send(text: string): void;
   rest(): void;
+  here(): void; // the page is not busy: to be called again and again while it drives
 }
 
 /** What a connection needs of the world outside. */
@@ -48,6 +51,8 @@ export class Connection {
   onLink: (link: Link) => void = () => {};
   onMessage: (message: ServerMessage) => void = () => {};
   onBinary: (buffer: ArrayBuffer) => void = () => {};
+  /** The page was busy for so many s, so that the robot that it drove was stopped. */
+  onLeft: (seconds: number) => void = () => {};
 
   private socket: Socket | null = null;
   private attempt = 0;
@@ -71,6 +76,10 @@ export class Connection {
       this.tell({ state: 'open' });
     };
     socket.onMessage = (data) => this.receive(data);
+    socket.onLeft = (seconds) => {
+      this.onLeft(seconds);
+      socket.rest(); // also where no hand holds any more
+    };
     socket.onClose = (reason) => this.closed(reason);
     this.socket = socket;
   }
@@ -87,6 +96,11 @@ export class Connection {
   /** A `drive` that was sent is not repeated any more. */
   rest(): void {
     this.socket?.rest();
+  }
+
+  /** The page is not busy; to be called again and again, or what it drives is left. */
+  here(): void {
+    this.socket?.here();
   }
 
   /** Ask the node for something. The reply always comes: a lost connection is a reply, too. */

@@ -146,6 +146,12 @@ connection.onMessage = (message) => {
   }
   store.take(message);
 };
+connection.onLeft = (seconds) => {
+  if (pilot.halt()) {
+    const busy = `The page was busy for ${seconds.toFixed(1)} s`;
+    store.note('warning', `${busy}: the robot was stopped. Let go and hold again.`);
+  }
+};
 connection.onBinary = (buffer) => {
   if (isSample(buffer)) {
     const sample = stream.takeSample(buffer);
@@ -176,6 +182,7 @@ function watch(): void {
 
 document.addEventListener('visibilitychange', watch);
 setInterval(() => {
+  connection.here();
   watch();
   const now = performance.now() / 1000;
   header.tick(now);

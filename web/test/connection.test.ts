@@ -11,12 +11,18 @@ class FakeSocket implements Socket {
   onOpen: Socket['onOpen'] = () => {};
   onClose: Socket['onClose'] = () => {};
   onMessage: Socket['onMessage'] = () => {};
+  onLeft: Socket['onLeft'] = () => {};
+  rests = 0;
 
   send(text: string): void {
     this.sent.push(text);
   }
 
-  rest(): void {}
+  rest(): void {
+    this.rests += 1;
+  }
+
+  here(): void {}
 
   close(): void {
     this.isOpen = false;
@@ -156,4 +162,17 @@ test('the token of the page goes with the socket', () => {
   const at = { protocol: 'http:', host: '127.0.0.1:8080', search: '?token=a1' };
   assert.equal(socketUrl(at), 'ws://127.0.0.1:8080/ws?token=a1');
   assert.equal(socketUrl({ ...at, protocol: 'https:', search: '' }), 'wss://127.0.0.1:8080/ws');
+});
+
+test('a page that was busy hears of it, and its socket that it has let go', () => {
+  const { outside, connection } = opened();
+  outside.socket.accept();
+  const heard: number[] = [];
+  connection.onLeft = (seconds) => {
+    heard.push(seconds);
+    assert.equal(outside.socket.rests, 0, 'the hands let go first');
+  };
+  outside.socket.onLeft(2.5);
+  assert.deepEqual(heard, [2.5]);
+  assert.equal(outside.socket.rests, 1);
 });

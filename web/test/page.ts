@@ -46,8 +46,10 @@ export function connectedApp(): TestApp {
     onOpen: () => {},
     onClose: () => {},
     onMessage: () => {},
+    onLeft: () => {},
     send: (text) => void sent.push(JSON.parse(text) as ClientMessage),
     rest: () => {},
+    here: () => {},
   };
   const connection = new Connection('ws://test', { open: () => socket, after: () => () => {} });
   const store = new Store();

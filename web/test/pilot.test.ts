@@ -174,7 +174,8 @@ test('when somebody else stops our robot, a held key does not drive on', () => {
   const { outside, pilot } = piloting();
   pilot.set('keys', AHEAD);
   outside.pass(1000);
-  pilot.halt();
+  assert.equal(pilot.halt(), true);
+  assert.equal(pilot.halt(), false, 'there is none to let go any more');
   const count = outside.sent.length;
   outside.pass(1000);
   assert.equal(pilot.driving, false);

@@ -12,10 +12,15 @@ const WATCH = JSON.stringify({ type: 'watch', parts: [] });
 class Outside implements RepeaterPort {
   time = 0;
   sent: { at: number; text: string }[] = [];
+  silences: number[] = []; // s, of which the page was told
   private due: { at: number; call: () => void } | null = null;
 
   send(text: string): void {
     this.sent.push({ at: this.time, text });
+  }
+
+  left(seconds: number): void {
+    this.silences.push(seconds);
   }
 
   now(): number {
@@ -67,6 +72,36 @@ test('a page that says nothing any more does not drive on', () => {
   repeater.hear();
   outside.pass(5000);
   assert.equal(outside.sent.length, count, 'that it comes back is no word to drive');
+});
+
+test('a page that was not heard is told so once it is there, and drives no more until it has let go', () => {
+  for (const end of [(it: Repeater) => it.send(STOP), (it: Repeater) => it.rest()]) {
+    const { outside, repeater } = repeating();
+    repeater.send(DRIVE);
+    outside.pass(2500);
+    assert.deepEqual(outside.silences, [], 'it could not hear it');
+    outside.sent = [];
+    repeater.send(DRIVE); // of a hand that it does not know yet to have been let go
+    repeater.hear();
+    outside.pass(500);
+    assert.deepEqual(outside.silences, [2.5]);
+    assert.deepEqual(outside.sent, []);
+    end(repeater);
+    repeater.send(DRIVE);
+    outside.pass(100);
+    assert.ok(outside.sent.filter(({ text }) => text === DRIVE).length >= 3);
+    assert.deepEqual(outside.silences, [2.5]);
+  }
+});
+
+test('a page that lets go after it was not heard is told so, and can drive', () => {
+  const { outside, repeater } = repeating();
+  repeater.send(DRIVE);
+  outside.pass(1500);
+  repeater.send(STOP);
+  assert.deepEqual(outside.silences, [1.5]);
+  repeater.send(DRIVE);
+  assert.deepEqual(outside.sent.slice(-2).map(({ text }) => text), [STOP, DRIVE]);
 });
 
 test('a page that is there, but slow, drives on', () => {

@@ -260,6 +260,25 @@ def test_a_page_that_is_busy_drawing_drives_on(page, ears):
     ears.has_stopped()
 
 
+def test_a_page_that_was_busy_for_long_lets_go_and_says_so(page, ears):
+    page.call('Debugger.enable')
+    page.key_down('KeyW')
+    ears.drives()
+    page.call('Debugger.pause')
+    ears.has_stopped()
+    page.call('Debugger.resume')
+    page.wait_until('!amr.now.driving')
+    toast = page.wait_until("document.querySelector('.toast p')?.textContent")
+    said = r'The page was busy for \d+\.\d s: the robot was stopped. Let go and hold again.'
+    assert re.fullmatch(said, toast)
+    page.call('Debugger.disable')
+    page.key_up('KeyW')
+    page.key_down('KeyW')
+    ears.drives()
+    page.key_up('KeyW')
+    ears.has_stopped()
+
+
 def test_the_joystick(page, ears):
     x, y = page.centre_of('.joystick')
     page.mouse('mousePressed', x, y)

@@ -105,14 +105,18 @@ export class Pilot {
     this.onChange(null);
   }
 
-  /** Another page stopped us, or the connection went: nothing is sent; hands must let go. */
-  halt(): void {
+  /**
+   * Another page stopped us, the connection went, or we were not heard: nothing is sent; hands must
+   * let go. Returns whether one held.
+   */
+  halt(): boolean {
     const driving = this.driving;
     this.letGo();
     if (driving) {
       this.port.rest();
       this.onChange(null);
     }
+    return driving;
   }
 
   /** Whether another page drives our robot: then no hand of this one does. */

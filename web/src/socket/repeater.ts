@@ -5,7 +5,8 @@
  *
  * A page that draws without a GPU can be busy for half a second at a time, longer than the node waits
  * for the next `drive`. It must not be repeated for ever, though: of a page that has not said a word
- * for a second nobody knows whether the key is still down.
+ * for a second nobody knows whether the key is still down. Then no `drive` goes out any more until the
+ * page, which is told so as soon as it is there again, has let go.
  */
 import type { ClientMessage } from '../protocol';
 
@@ -15,6 +16,8 @@ const PATIENCE = 1000; // ms without a word of the page
 /** What is needed of the world outside. */
 export interface RepeaterPort {
   send(text: string): void;
+  /** The page is there again after so many s; what it drove was left meanwhile. */
+  left(seconds: number): void;
   now(): number; // ms
   after(milliseconds: number, call: () => void): () => void; // returns what takes it back
 }
@@ -22,6 +25,7 @@ export interface RepeaterPort {
 export class Repeater {
   private text: string | null = null;
   private heardAt = -Infinity;
+  private leaving: 'no' | 'untold' | 'told' = 'no'; // what the page knows of a `drive` that was left
   private cancel: (() => void) | null = null;
 
   constructor(private readonly port: RepeaterPort) {}
@@ -31,6 +35,9 @@ export class Repeater {
     this.hear();
     const { type } = JSON.parse(text) as ClientMessage;
     if (type === 'drive') {
+      if (this.leaving !== 'no') {
+        return; // the page has not let go yet
+      }
       this.text = text;
       this.schedule();
     } else if (type === 'stop' || type === 'press_stop') {
@@ -41,11 +48,22 @@ export class Repeater {
 
   /** The page is there. */
   hear(): void {
-    this.heardAt = this.port.now();
+    const now = this.port.now();
+    const silence = (now - this.heardAt) / 1000;
+    this.heardAt = now;
+    if (this.leaving === 'untold') {
+      this.leaving = 'told';
+      this.port.left(silence);
+    }
   }
 
-  /** Repeat nothing more. */
+  /** The page lets go: repeat nothing more. */
   rest(): void {
+    this.leaving = 'no';
+    this.leave();
+  }
+
+  private leave(): void {
     this.text = null;
     this.cancel?.();
     this.cancel = null;
@@ -57,8 +75,12 @@ export class Repeater {
   }
 
   private repeat(): void {
-    if (this.text === null || this.port.now() - this.heardAt > PATIENCE) {
-      this.rest();
+    if (this.text === null) {
+      return;
+    }
+    if (this.port.now() - this.heardAt > PATIENCE) {
+      this.leave();
+      this.leaving = 'untold';
       return;
     }
     this.port.send(this.text);

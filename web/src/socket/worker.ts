@@ -11,6 +11,7 @@ const tell = (message: FromWorker, transfer: Transferable[] = []): void => {
 let socket: WebSocket | null = null;
 const repeater = new Repeater({
   send: (text) => socket?.readyState === WebSocket.OPEN && socket.send(text),
+  left: (seconds) => tell({ kind: 'left', seconds }),
   now: () => performance.now(),
   after: (milliseconds, call) => {
     const timer = setTimeout(call, milliseconds);
@@ -28,6 +29,8 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
       return repeater.send(data.text);
     case 'rest':
       return repeater.rest();
+    case 'here':
+      return repeater.hear();
     case 'taken':
       repeater.hear();
       return waiting.taken();

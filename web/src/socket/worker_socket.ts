@@ -9,6 +9,7 @@ export class WorkerSocket implements Socket {
   onOpen: Socket['onOpen'] = () => {};
   onClose: Socket['onClose'] = () => {};
   onMessage: Socket['onMessage'] = () => {};
+  onLeft: Socket['onLeft'] = () => {};
   private readonly worker: Worker;
 
   constructor(url: string, protocol: string) {
@@ -26,6 +27,10 @@ export class WorkerSocket implements Socket {
     this.tell({ kind: 'rest' });
   }
 
+  here(): void {
+    this.tell({ kind: 'here' });
+  }
+
   private tell(message: ToWorker): void {
     this.worker.postMessage(message);
   }
@@ -39,6 +44,8 @@ export class WorkerSocket implements Socket {
         return this.closed(message.reason);
       case 'text':
         return this.onMessage(message.text);
+      case 'left':
+        return this.onLeft(message.seconds);
       case 'frames':
         for (const frame of message.frames) {
           this.onMessage(frame);
