@@ -38,6 +38,7 @@ Every error that this package raises on purpose.
     │   └── CompilerError    … because there is no C and C++ compiler that works (exit code 3)
     ├── BagError             a recording cannot be read, written or made
     ├── ViewerError          the browser page's server cannot do what was asked
+    │   ├── PartlyDoneError  a request of a page was done in part; carries what tries the rest
     │   └── ProtocolError    a message of a page is malformed
     ├── BringupError         a stack is malformed, or one of its steps failed
     └── UsageError           a command line cannot be understood (exit code 2, as argparse)
@@ -46,6 +47,8 @@ The text of an error is one line that says what was asked, what was found and ho
 program that ends because of an error prints that line, without a traceback, and exits with
 ``exit_code``.
 """
+
+from collections.abc import Mapping
 
 
 class AmrError(Exception):
@@ -217,6 +220,20 @@ class BagError(AmrError):
 
 class ViewerError(AmrError):
     """The browser page's server cannot do what was asked."""
+
+
+class PartlyDoneError(ViewerError):
+    """
+    A request of a page was done in part.
+
+    Args:
+        text: What was done, and why the rest was not.
+        again: The fields of the request that tries the rest again, without its ``id``.
+    """
+
+    def __init__(self, text: str, again: Mapping[str, object]) -> None:
+        super().__init__(text)
+        self.again = again
 
 
 class ProtocolError(ViewerError):

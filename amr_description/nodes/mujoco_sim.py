@@ -14,7 +14,8 @@ of ``simulation_interfaces``, below ``/mujoco_sim/``::
 
 Robots are pushed by ``~/wrench`` (sim/ros/wrench_topics.py).
 
-It publishes its static surroundings as markers on ``~/world`` (sim/ros/world_markers.py), and on
+It publishes its static surroundings as markers on ``~/world`` (sim/ros/world_markers.py), with
+what each entity was spawned on ``~/spawned/NAME`` (sim/ros/spawned_topics.py), and on
 ``~/received`` which commands have arrived (control/ros/loop_publisher.py).
 """
 

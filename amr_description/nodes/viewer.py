@@ -25,8 +25,9 @@ subscribes ``/tf``, ``/tf_static``, ``/clock``,
            managers, ``~/world`` of simulators
 ========== =================================== ================================================
 
-For each robot that a page spawns there is a ``robot_state_publisher`` in its namespace, which
-publishes its description and the transforms of its links until the robot is deleted.
+For each robot that a page spawns, and for one in a world that nobody else describes, there is a
+``robot_state_publisher`` in its namespace, which publishes its description and the transforms of
+its links until the robot is deleted, or somebody else does so.
 
 ``ros2 run amr_description viewer --bag PATH`` shows a bag instead, a folder or a file, with a time
 line: no node, no DDS.
@@ -223,10 +224,9 @@ def _bag(args: Sequence[str]) -> Path | None:
 
 def _publish_description(namespace: str, urdf: str) -> Node:
     """Return a robot_state_publisher in simulated time; it logs warnings only. Raises AmrError."""
-    prefix = namespace.strip('/')
-    name = f'{prefix.replace("/", ".")}.robot_state_publisher'
-    set_logger_level(name, LoggingSeverity.WARN)
-    overrides = {'robot_description': urdf, 'frame_prefix': f'{prefix}/', 'use_sim_time': True}
+    prefix = f'{namespace}/'.lstrip('/')
+    set_logger_level(f'{prefix.replace("/", ".")}robot_state_publisher', LoggingSeverity.WARN)
+    overrides = {'robot_description': urdf, 'frame_prefix': prefix, 'use_sim_time': True}
     return RobotStatePublisher(
         namespace=namespace,
         use_global_arguments=False,  # they are for the viewer

@@ -13,6 +13,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``emergency_stops.py`` … held by the backend, until they are released
 ``pushes.py``       which page pushes which link, and until when
 ``protocol.py``     messages to pages; ``web/src/protocol.ts`` is written from them
+``encoding.py``     … as text frames
 ``introspection.py`` … about the ROS graph itself
 ``navigation.py``   … about who navigates, and the goals of pages
 ``bags.py``         … about a bag that is shown, and one that is recorded
@@ -26,6 +27,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``http.py``         plain HTTP: the files of the page, meshes, security headers
 ``access.py``       which requests are answered: Host, Origin, token
 ``graph.py``        names and types of a ROS graph -> robots and simulators
+``entities.py``     which entity of a world a robot is
 ``joint_groups.py`` the joints that controllers let a page move, and to where
 ``client.py``       a page without a browser, for measurements and tests
 ``ros/``            the backend for the ROS graph

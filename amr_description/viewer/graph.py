@@ -22,6 +22,7 @@ JOINT_STATE = 'sensor_msgs/msg/JointState'
 ODOMETRY = 'nav_msgs/msg/Odometry'
 DYNAMIC_JOINT_STATE = 'control_msgs/msg/DynamicJointState'
 TF = 'tf2_msgs/msg/TFMessage'
+SPAWN_ENTITY = 'simulation_interfaces/msg/SpawnEntity'
 MARKERS = 'visualization_msgs/msg/MarkerArray'
 ENTITY_WRENCH = 'ros_gz_interfaces/msg/EntityWrench'
 ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
@@ -112,6 +113,8 @@ class FoundSimulator:
     services: frozenset[str]
     hears_wrenches: bool
     """Whether it takes ``~/wrench/persistent``."""
+    spawned: tuple[str, ...] = ()
+    """Its topics that say with what it has spawned each entity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,6 +260,13 @@ def _simulators(names: GraphNames) -> Iterator[FoundSimulator]:
                 names.if_published(f'{node}/world', MARKERS),
                 services,
                 ENTITY_WRENCH in names.subscribed.get(f'{node}/wrench/persistent', ()),
+                tuple(
+                    sorted(
+                        topic
+                        for topic, published in names.published.items()
+                        if SPAWN_ENTITY in published and topic.startswith(f'{node}/spawned/')
+                    )
+                ),
             )
 
 

@@ -18,7 +18,8 @@ from websockets.asyncio.connection import broadcast
 from websockets.asyncio.server import ServerConnection
 
 from amr_description.viewer.backend import Watched
-from amr_description.viewer.protocol import Channel, encode, ServerMessage
+from amr_description.viewer.encoding import encode
+from amr_description.viewer.protocol import Channel, ServerMessage
 from amr_description.viewer.requests import Part
 from amr_description.viewer.samples import Sample
 

@@ -14,10 +14,7 @@ docstrings, and for a field the comment that begins with ``#:``, beside it or ab
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
-from functools import cache
-import json
-import math
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from amr_description.model.frames import Quaternion, Vector
@@ -53,6 +50,14 @@ class Command:
 
 
 @dataclass(frozen=True, slots=True)
+class EntityInfo:
+    """A robot in a simulator's world."""
+
+    simulator: str
+    name: str  #: that ``delete`` takes
+
+
+@dataclass(frozen=True, slots=True)
 class RobotInfo:
     """A robot, and its topics and nodes in the ROS graph; ``None``: there is none."""
 
@@ -68,6 +73,8 @@ class RobotInfo:
     #: the joint_state_publisher that takes positions, so that there are sliders
     joint_publisher: str | None
     manager: str | None  #: the controller manager
+    #: what it is in a simulator's world; ``None``: in none, or nobody can tell
+    entity: EntityInfo | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -341,6 +348,8 @@ class Reply:
     ok: bool
     message: str  #: one line: what was done, or what was asked, found, and would do
     data: Any = None  #: what was asked for: the request says of what type
+    #: of a request that was done in part: the fields of the one that tries the rest again
+    again: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -565,35 +574,3 @@ ServerMessage: TypeAlias = (
     | BagWriting
 )
 """A text frame from the node."""
-
-
-def encode(message: ServerMessage | Head) -> str:
-    """Return the text frame of a message; NaN and infinity become null."""
-    try:
-        return _encode({'type': message.type, **_members(message)})
-    except ValueError:  # from a third-party message; JSON has neither NaN nor infinity
-        return _encode(_finite({'type': message.type, **asdict(message)}))
-
-
-def _members(value: Any) -> dict[str, Any]:
-    """Return the fields of a dataclass, in a third of the time of ``asdict``, which copies all."""
-    kind: type = type(value)
-    return {name: getattr(value, name) for name in _names(kind)}
-
-
-@cache
-def _names(kind: type) -> tuple[str, ...]:
-    return tuple(each.name for each in fields(kind))
-
-
-_encode = json.JSONEncoder(default=_members, allow_nan=False, separators=(',', ':')).encode
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: _finite(each) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(each) for each in value]
-    return value

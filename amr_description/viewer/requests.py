@@ -205,6 +205,20 @@ class Spawn:
 
 
 @dataclass(frozen=True, slots=True)
+class SetUp:
+    """
+    Activate the controllers of a robot: those that are, or were, active of the one it is like.
+
+    Of a robot that is not there any more nobody may know them; then all of the parameter file.
+    """
+
+    types: ClassVar[tuple[str, ...]] = ('set_up',)
+    id: int
+    robot: str
+    like: str
+
+
+@dataclass(frozen=True, slots=True)
 class LoadWorld:
     """Load another world; the robots are spawned again in it, with their active controllers."""
 
@@ -379,6 +393,7 @@ SimulatorRequest: TypeAlias = (
 """What a simulator is asked."""
 Request: TypeAlias = (
     SimulatorRequest
+    | SetUp
     | Switch
     | DeactivateDrive
     | Definition
@@ -410,6 +425,7 @@ REQUESTS = (
     Place,
     ResetEntity,
     Delete,
+    SetUp,
     Switch,
     DeactivateDrive,
     Definition,

@@ -19,7 +19,8 @@ import struct
 
 import numpy as np
 
-from amr_description.viewer.protocol import Channel, encode, Head
+from amr_description.viewer.encoding import encode
+from amr_description.viewer.protocol import Channel, Head
 
 SAMPLE_KIND = 2
 HEAD_AT = 4

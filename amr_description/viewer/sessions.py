@@ -5,7 +5,7 @@
 import asyncio
 from collections.abc import Callable
 
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, PartlyDoneError
 from amr_description.viewer.backend import Backend, Watched
 from amr_description.viewer.drive_lock import DriveLock
 from amr_description.viewer.emergency_stops import EmergencyStops
@@ -214,6 +214,8 @@ class MessageRouter:
         try:
             answer = await self._backend.handle(request, page.name)
             reply = Reply(request.id, True, answer.message, answer.data)
+        except PartlyDoneError as error:
+            reply = Reply(request.id, False, str(error), again=error.again)
         except AmrError as error:
             reply = Reply(request.id, False, str(error))
         except Exception as error:

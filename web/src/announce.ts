@@ -1,13 +1,15 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** Says what happened: to the eye for some seconds, to a screen reader in a live region. */
-import type { Store } from './store';
+import { ask, type App } from './app';
+import type { NoticeEntry } from './store';
 import { button, h, setText } from './dom';
 
 const SHOWN = { info: 5000, warning: 9000, error: 12000 } as const; // ms
 const MOST = 3;
 
-export function announce(store: Store): HTMLElement {
+export function announce(app: App): HTMLElement {
+  const { store } = app;
   const live = h('div', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
   const toasts = h('div', { class: 'toasts' });
   let announced = store.notices[0];
@@ -19,7 +21,7 @@ export function announce(store: Store): HTMLElement {
       if (latest.count > 1) {
         toasts.firstElementChild?.remove();
       }
-      toasts.prepend(toast(latest.level, latest.text));
+      toasts.prepend(toast(app, latest));
       setText(live, latest.text);
       while (toasts.childElementCount > MOST) {
         toasts.lastElementChild?.remove();
@@ -37,10 +39,19 @@ export function announce(store: Store): HTMLElement {
   return h('div', { class: 'announce' }, live, toasts);
 }
 
-function toast(level: 'info' | 'warning' | 'error', text: string): HTMLElement {
+/** What can be tried again stays until that is done, or it is dismissed. */
+function toast(app: App, { level, text, again }: NoticeEntry): HTMLElement {
   const element = h('div', { class: 'toast', 'data-tone': level }, h('p', {}, text));
   const remove = (): void => element.remove();
+  if (again === null) {
+    setTimeout(remove, SHOWN[level]);
+  } else {
+    const tryAgain = (): void => {
+      remove();
+      void ask(app, again);
+    };
+    element.append(button('Try again', tryAgain));
+  }
   element.append(button('', remove, { icon: 'close', kind: 'quiet', title: 'Dismiss' }));
-  setTimeout(remove, SHOWN[level]);
   return element;
 }

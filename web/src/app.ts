@@ -28,16 +28,16 @@ export interface Panel {
   pulse?(state: State): void;
 }
 
-const WORTH_SAYING: ReadonlySet<Asked['type']> = new Set(['spawn', 'delete', 'stop_recording']);
+const WORTH_SAYING: ReadonlySet<Asked['type']> = new Set(['spawn', 'set_up', 'delete', 'stop_recording']);
 
 /**
  * Ask the node. A no becomes a notice, and so does a yes to what cannot be seen at once.
  * Returns whether it was done.
  */
 export async function ask(app: App, asked: Asked): Promise<boolean> {
-  const { ok, message } = await app.connection.request(asked);
+  const { ok, message, again } = await app.connection.request(asked);
   if (!ok || WORTH_SAYING.has(asked.type)) {
-    app.store.note(ok ? 'info' : 'error', message);
+    app.store.note(ok ? 'info' : 'error', message, again as Asked | null);
   }
   return ok;
 }

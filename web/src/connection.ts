@@ -157,7 +157,7 @@ export class Connection {
 }
 
 function refusal(id: number, message: string): Reply {
-  return { type: 'reply', id, ok: false, message, data: null };
+  return { type: 'reply', id, ok: false, message, data: null, again: null };
 }
 
 /** Where the node of this page listens; a token in the page's address goes with it. */

@@ -7,21 +7,20 @@ import type { Hands } from './scene/grip';
 /** Null where nothing simulates. */
 export function handsOf(app: App): Hands | null {
   const { store, connection } = app;
-  const simulator = store.simulator?.id;
-  if (simulator === undefined) {
+  if (store.simulator === null) {
     return null;
   }
   return {
     push: (robot, link, force, torque) => {
       const entity = store.entityOf(robot);
       if (entity !== null) {
-        connection.send({ type: 'push', simulator, entity, link, force, torque });
+        connection.send({ type: 'push', simulator: entity.simulator, entity: entity.name, link, force, torque });
       }
     },
     place: async (robot, position, yaw) => {
-      const name = store.entityOf(robot);
-      if (name !== null) {
-        await ask(app, { type: 'place', simulator, name, position, yaw });
+      const entity = store.entityOf(robot);
+      if (entity !== null) {
+        await ask(app, { type: 'place', ...entity, position, yaw });
       }
     },
   };

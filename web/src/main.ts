@@ -96,7 +96,7 @@ const theme = watchTheme((now) => {
 const header = new Header(app, { flipTheme: theme.flip, openPanels: shell.openPanels });
 const skip = h('a', { class: 'skip', href: '#drive' }, 'Skip to driving');
 document.body.prepend(skip, header.element);
-document.body.append(announce(store));
+document.body.append(announce(app));
 
 store.watch(['graph', 'robot', 'model', 'diagnostics'], () => {
   tabs.setBadge('model', findingsToLookAt(store));

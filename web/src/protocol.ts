@@ -48,6 +48,13 @@ export interface Command {
   message: string;
 }
 
+/** A robot in a simulator's world. */
+export interface EntityInfo {
+  simulator: string;
+  /** that `delete` takes */
+  name: string;
+}
+
 /** A robot, and its topics and nodes in the ROS graph; null: there is none. */
 export interface RobotInfo {
   /** its namespace, "/" or "/robot1": the name of the robot in every other message */
@@ -69,6 +76,8 @@ export interface RobotInfo {
   joint_publisher: string | null;
   /** the controller manager */
   manager: string | null;
+  /** what it is in a simulator's world; null: in none, or nobody can tell */
+  entity: EntityInfo | null;
 }
 
 /** A simulator. */
@@ -332,6 +341,8 @@ export interface Reply {
   message: string;
   /** what was asked for: the request says of what type */
   data: unknown;
+  /** of a request that was done in part: the fields of the one that tries the rest again */
+  again: Record<string, unknown> | null;
 }
 
 /** A line for the user: a robot has left the graph, a Twist without subscribers, and so on. */
@@ -997,6 +1008,18 @@ export interface Spawn {
   urdf?: string | null;
 }
 
+/**
+ * Activate the controllers of a robot: those that are, or were, active of the one it is like.
+ *
+ * Of a robot that is not there any more nobody may know them; then all of the parameter file.
+ */
+export interface SetUp {
+  type: 'set_up';
+  id: number;
+  robot: string;
+  like: string;
+}
+
 /** Load another world; the robots are spawned again in it, with their active controllers. */
 export interface LoadWorld {
   type: 'load_world';
@@ -1165,6 +1188,7 @@ export type SimulatorRequest =
 /** Messages with an `id`, which get a reply. */
 export type Request =
   | SimulatorRequest
+  | SetUp
   | Switch
   | DeactivateDrive
   | Definition

@@ -8,10 +8,10 @@
  */
 import { batch, effect, signal, untracked, type Signal } from '@preact/signals';
 import type {
-  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, Findings, GoalStatus, Graph, Hello, Layout, LogLine,
+  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, EntityInfo, Findings, GoalStatus, Graph, Hello, Layout, LogLine,
   Model, Notice, Playhead, Recording, RobotInfo, ServerMessage, SimulationStatus, SimulatorInfo, Topics, Transforms, World,
 } from './protocol';
-import type { Link } from './connection';
+import type { Asked, Link } from './connection';
 import { Freshness } from './freshness';
 
 /** What can change; a listener is called for the topics that it subscribed to. */
@@ -24,6 +24,7 @@ export interface NoticeEntry extends Notice {
   number: number; // of this entry, which is another one's never
   count: number; // how often it came in a row
   at: Date;
+  again: Asked | null; // what tries again what has failed
 }
 
 export interface Selection {
@@ -249,12 +250,9 @@ export class Store {
     return this.simulator === null ? null : (this.simulations.get(this.simulator.id) ?? null);
   }
 
-  /** The name of a robot in the simulator's world; null: it is not known to be there. */
-  entityOf(robot: string): string | null {
-    const entities = this.simulator?.entities ?? [];
-    const name = this.graph?.robots.find(({ id }) => id === robot)?.name;
-    const found = entities.find((each) => each === robot.slice(1) || each === name);
-    return found ?? (entities.length === 1 ? entities[0]! : null);
+  /** What a robot is in a simulator's world, as the node says; null: it is not known to be there. */
+  entityOf(robot: string): EntityInfo | null {
+    return this.graph?.robots.find(({ id }) => id === robot)?.entity ?? null;
   }
 
   get model(): Model | null {
@@ -324,13 +322,13 @@ export class Store {
   }
 
   /** Show the user a notice; equal ones in a row are counted. */
-  note(level: Notice['level'], text: string): void {
+  note(level: Notice['level'], text: string, again: Asked | null = null): void {
     const before = this.cells.notice.peek();
     const [latest, ...older] = before;
     const isSame = latest !== undefined && latest.text === text && latest.level === level;
     const count = isSame ? latest.count + 1 : 1;
     const number = isSame ? latest.number : (latest?.number ?? 0) + 1;
-    const entry: NoticeEntry = { type: 'notice', level, text, number, count, at: new Date() };
+    const entry: NoticeEntry = { type: 'notice', level, text, number, count, at: new Date(), again };
     this.cells.notice.value = [entry, ...(isSame ? older : before)].slice(0, MOST_NOTICES);
   }
 

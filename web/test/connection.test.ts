@@ -118,8 +118,8 @@ test('a reply finds its request', async () => {
   const one = connection.request({ type: 'play', simulator: '/sim' });
   const two = connection.request({ type: 'step', simulator: '/sim', steps: 5 });
   const ids = outside.socket.sent.map((text) => (JSON.parse(text) as { id: number }).id);
-  outside.socket.say({ type: 'reply', id: ids[1], ok: true, message: 'two', data: null });
-  outside.socket.say({ type: 'reply', id: ids[0], ok: false, message: 'one', data: null });
+  outside.socket.say({ type: 'reply', id: ids[1], ok: true, message: 'two', data: null, again: null });
+  outside.socket.say({ type: 'reply', id: ids[0], ok: false, message: 'one', data: null, again: null });
   assert.equal((await one).message, 'one');
   assert.equal((await two).message, 'two');
   assert.equal(outside.timers.length, 0);
@@ -129,7 +129,7 @@ test('a reply nobody waits for is a message', () => {
   const { outside, connection } = opened();
   const heard: string[] = [];
   connection.onMessage = (message) => heard.push(message.type);
-  outside.socket.say({ type: 'reply', id: 0, ok: false, message: 'page 2 drives', data: null });
+  outside.socket.say({ type: 'reply', id: 0, ok: false, message: 'page 2 drives', data: null, again: null });
   assert.deepEqual(heard, ['reply']);
 });
 

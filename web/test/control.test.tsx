@@ -8,7 +8,7 @@ import { connectedApp, drawn, texts, type TestApp } from './page';
 
 const ROBOT: RobotInfo = {
   id: '/', name: 'amr', present: true, command: null, odometry: null, truth: null, wheels: null,
-  joint_states: null, joint_publisher: null, manager: '/controller_manager',
+  joint_states: null, joint_publisher: null, manager: '/controller_manager', entity: null,
 };
 
 function withControllers(): TestApp {
@@ -46,7 +46,7 @@ test('each controller is there with its state, and its switch asks for the other
     type: 'switch', id: 1, robot: '/', activate: [], deactivate: ['wheels'],
   });
   assert.equal(knob.disabled, true, 'until there is an answer');
-  app.say({ type: 'reply', id: 1, ok: true, message: 'done', data: null });
+  app.say({ type: 'reply', id: 1, ok: true, message: 'done', data: null, again: null });
   say(app, 'inactive');
   await drawn();
   assert.deepEqual(texts(panel, '.chip'), ['inactive', 'active']);

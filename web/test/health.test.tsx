@@ -41,7 +41,7 @@ test('a late loop is an alarm on a machine, and a note in a simulation', async (
   assert.deepEqual(texts(panel, '.chip'), ['error', 'warn']);
   assert.deepEqual(diagnosticsToLookAt(app.store), { count: 2, tone: 'error' });
   const simulators = [{ id: '/sim', entities: ['amr'], world: '', worlds: [] }];
-  app.say(graphOf([robotInfo()], { simulators }));
+  app.say(graphOf([robotInfo({ entity: { simulator: '/sim', name: 'amr' } })], { simulators }));
   await drawn();
   assert.deepEqual(texts(panel, '.chip'), ['warn', 'note']);
   assert.match(texts(panel, '.unit .fine')[1]!, /^The control loop takes uneven time .*\(High execution/);

@@ -108,7 +108,7 @@ test('a form publishes at a rate until it is closed with its topic', async () =>
   const button = (text: string) =>
     [...panel.element.querySelectorAll('button')].find((each) => each.textContent === text);
   click(button('Publish …'));
-  app.say({ type: 'reply', id: 1, ok: true, message: '', data: FIELDS });
+  app.say({ type: 'reply', id: 1, ok: true, message: '', data: FIELDS, again: null });
   await drawn();
   type(panel.element.querySelector('[id="publish-linear.x"]'), '2');
   await drawn();
@@ -116,7 +116,7 @@ test('a form publishes at a rate until it is closed with its topic', async () =>
   assert.deepEqual(app.sent.at(-1), {
     type: 'publish', id: 2, topic: '/odom', message: 'a/msg/B', values: { linear: { x: 2 } }, rate: 10,
   });
-  app.say({ type: 'reply', id: 2, ok: true, message: 'published', data: null });
+  app.say({ type: 'reply', id: 2, ok: true, message: 'published', data: null, again: null });
   await drawn();
   assert.deepEqual(texts(panel, '.publish output'), ['published']);
   click(panel.element.querySelector('.topic'));
@@ -161,7 +161,7 @@ test('a parameter is set when it is left; the reason of a refusal is beside it',
   assert.deepEqual(app.sent.at(-1), { type: 'parameters', id: 1, node: '/drive' });
   app.say({
     type: 'reply', id: 1, ok: true, message: '',
-    data: [SPEED, { ...SPEED, name: 'fixed', read_only: true }],
+    data: [SPEED, { ...SPEED, name: 'fixed', read_only: true }], again: null,
   });
   await drawn();
   assert.equal(texts(panel, '.parameter .fine')[0], 'double · 0 to 2 · how fast');
@@ -172,7 +172,7 @@ test('a parameter is set when it is left; the reason of a refusal is beside it',
   assert.deepEqual(app.sent.at(-1), {
     type: 'set_parameter', id: 2, node: '/drive', name: 'speed', kind: 'double', value: 9,
   });
-  app.say({ type: 'reply', id: 2, ok: false, message: '/drive refuses speed: 9 > 2', data: null });
+  app.say({ type: 'reply', id: 2, ok: false, message: '/drive refuses speed: 9 > 2', data: null, again: null });
   await drawn();
   assert.deepEqual(texts(panel, '[role=alert]'), ['/drive refuses speed: 9 > 2']);
 });

@@ -30,7 +30,7 @@ const URDF = `<robot name="arm">
 
 const ROBOT: RobotInfo = {
   id: '/arm1', name: 'arm', present: true, command: null, odometry: null, truth: null, wheels: null,
-  joint_states: null, joint_publisher: null, manager: null,
+  joint_states: null, joint_publisher: null, manager: null, entity: null,
 };
 
 test('a link is read with its inertia, shapes and joint', () => {

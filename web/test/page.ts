@@ -83,7 +83,7 @@ export async function drawn(): Promise<void> {
 export function robotInfo(known: Partial<RobotInfo> = {}): RobotInfo {
   return {
     id: '/', name: 'amr', present: true, command: null, odometry: null, truth: null, wheels: null,
-    joint_states: null, joint_publisher: null, manager: null, ...known,
+    joint_states: null, joint_publisher: null, manager: null, entity: null, ...known,
   };
 }
 

@@ -109,7 +109,7 @@ test('while one searches, topics are offered, then the numbers of those that are
     { ...plain, name: 'twist', kind: 'a/V', fields: [{ ...plain, name: 'x', kind: 'double' }] },
     { ...plain, name: 'covariance', kind: 'double', length: 36 },
   ];
-  app.say({ type: 'reply', id: asked()[0]!.id, ok: true, message: '', data });
+  app.say({ type: 'reply', id: asked()[0]!.id, ok: true, message: '', data, again: null });
   await drawn();
   assert.deepEqual(texts(panel, 'datalist option'), ['/odom:twist.x', '/odom:covariance[0]']);
   type(panel, '/odom tw');

@@ -48,7 +48,7 @@ test('another world is chosen, and waited for', async () => {
   await drawn();
   assert.deepEqual(app.sent.at(-1), { type: 'load_world', id: 1, simulator: '/sim', name: 'walls' });
   assert.equal(choice.disabled, true);
-  app.say({ type: 'reply', id: 1, ok: false, message: 'no', data: null });
+  app.say({ type: 'reply', id: 1, ok: false, message: 'no', data: null, again: null });
   await drawn();
   assert.equal(choice.disabled, false);
 });

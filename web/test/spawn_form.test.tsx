@@ -7,11 +7,11 @@ import type { RobotInfo } from '../src/protocol';
 import type { MarkedPlace } from '../src/scene/placing';
 import type { Footprint } from '../src/spawn/free_place';
 import type { Ground } from '../src/spawn/offer';
-import { connectedApp, drawn, type TestApp } from './page';
+import { connectedApp, drawn, graphOf, type TestApp } from './page';
 
 const ROBOT: RobotInfo = {
   id: '/', name: 'amr', present: true, command: null, odometry: null, truth: null, wheels: null,
-  joint_states: null, joint_publisher: null, manager: null,
+  joint_states: null, joint_publisher: null, manager: null, entity: null,
 };
 
 class FakeGround implements Ground {
@@ -75,7 +75,7 @@ test('a free name and a free place are offered, and the next ones after a robot 
   ground.robots.push({ id: '/robot1', x: 0, y: 1.2, yaw: 0, radius: 0.4 });
   const simulators = [{ id: '/sim', entities: ['amr', 'robot1'], world: '', worlds: [] }];
   app.say({ type: 'graph', robots: [ROBOT], simulators, hint: null, sensors: [], navigators: [] });
-  app.say({ type: 'reply', id: asked.id, ok: true, message: "'robot1' is in the world", data: null });
+  app.say({ type: 'reply', id: asked.id, ok: true, message: "'robot1' is in the world", data: null, again: null });
   await drawn();
   assert.deepEqual(ground.shown, ['/robot1']);
   assert.equal(button('submit').disabled, false);
@@ -95,7 +95,7 @@ test('a refused place stays, so that it can be mended', async () => {
   await drawn();
   const asked = app.sent.at(-1);
   assert.ok(asked?.type === 'spawn');
-  app.say({ type: 'reply', id: asked.id, ok: false, message: 'it would be inside another', data: null });
+  app.say({ type: 'reply', id: asked.id, ok: false, message: 'it would be inside another', data: null, again: null });
   await drawn();
   assert.equal(field('x').value, '0.2');
   assert.deepEqual(ground.shown, []);
@@ -145,4 +145,21 @@ test('an offered place stays while it is not known yet where another robot stand
   await drawn();
   assert.equal(ground.robots.length, 1);
   assert.deepEqual([field('x').value, field('y').value], ['0', '1.2']);
+});
+
+test('a robot that was deleted is offered again, by its name and in its namespace', async () => {
+  const { app, ground, element, field } = await shown();
+  const model = { root: 'base_link', meshes: {}, joints: [], findings: [] };
+  app.say({ type: 'model', robot: '/', urdf: '<robot><visual/></robot>', ...model });
+  const simulators = [{ id: '/sim', entities: [], world: '', worlds: [] }];
+  app.say(graphOf([{ ...ROBOT, present: false }], { simulators }));
+  ground.robots = [];
+  await drawn();
+  assert.ok([...element.querySelectorAll('h2, h3')].some((each) => each.textContent === 'The robot again'));
+  assert.equal(field('name').value, 'amr');
+  submit(element);
+  await drawn();
+  const asked = app.sent.at(-1);
+  assert.ok(asked?.type === 'spawn');
+  assert.deepEqual([asked.name, asked.namespace, asked.like], ['amr', '/', '/']);
 });

@@ -12,7 +12,7 @@ const HELLO: Hello = {
 function robot(id: string): RobotInfo {
   return {
     id, name: 'amr', present: true, command: null, odometry: null, truth: null, wheels: null,
-    joint_states: null, joint_publisher: null, manager: null,
+    joint_states: null, joint_publisher: null, manager: null, entity: null,
   };
 }
 
@@ -163,7 +163,7 @@ test('notices that repeat are counted, and only the latest are kept', () => {
 
 test('a refusal becomes a notice, a yes does not', () => {
   const store = new Store();
-  store.take({ type: 'reply', id: 0, ok: true, message: 'yes', data: null });
-  store.take({ type: 'reply', id: 0, ok: false, message: 'page 2 drives', data: null });
+  store.take({ type: 'reply', id: 0, ok: true, message: 'yes', data: null, again: null });
+  store.take({ type: 'reply', id: 0, ok: false, message: 'page 2 drives', data: null, again: null });
   assert.deepEqual(store.notices.map((notice) => notice.text), ['page 2 drives']);
 });

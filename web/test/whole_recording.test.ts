@@ -35,7 +35,7 @@ function numbers(values: readonly number[]): string {
 async function answer(app: TestApp, type: string, known: Partial<Reply>): Promise<void> {
   const asked = app.sent[app.sent.map((each): string => each.type).lastIndexOf(type)];
   assert.ok(asked !== undefined && 'id' in asked, `${type} was not asked`);
-  app.say({ type: 'reply', id: asked.id, ok: true, message: '', data: null, ...known });
+  app.say({ type: 'reply', id: asked.id, ok: true, message: '', data: null, again: null, ...known });
   await new Promise((resolve) => setTimeout(resolve));
 }
 

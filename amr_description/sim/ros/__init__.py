@@ -24,6 +24,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``names.py``                names of its topics and frames
 ``sensors/``                lidars, cameras, contacts of robots as topics
 ``ground_truth.py``         ``ground_truth/odom`` and ``ground_truth/wheels`` of every robot
+``spawned_topics.py``       ``~/spawned/NAME``: with what each entity was spawned
 ``world_markers.py``        ``~/world``: the static geometry as markers
 =========================== =======================================================================
 """

@@ -40,6 +40,7 @@ from amr_description.sim.ros.link_transforms import LinkTransforms, SpawnedRobot
 from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.ros.run_recording import controllers_text, on_loop, RunRecording
 from amr_description.sim.ros.sensors.manager import SensorManager
+from amr_description.sim.ros.spawned_topics import SpawnedTopics
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
 from amr_description.simulation.worlds import world_of
@@ -183,7 +184,13 @@ class Simulation:
             log=self.log,
         )
         recording.on_begin = self._ground_truth.restart
-        self.entities.on_change = recording.update
+        spawned = SpawnedTopics(self._node, lambda: self.entities)
+
+        def on_change() -> None:
+            recording.update()
+            spawned.update()
+
+        self.entities.on_change = on_change
         return recording
 
     def _describe_run(self) -> RunDescription:

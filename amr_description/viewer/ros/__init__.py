@@ -12,7 +12,9 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``pushing.py``          pushes the robots of a simulator
 ``joint_commands.py``   joints that pages move by controllers
 ``goals.py``              goals and initial poses that pages give, by topics and the action
-``spawned_robots.py``   description and transforms of robots that pages have spawned
+``entity_topics.py``    with what simulators have spawned their entities
+``spawned_robots.py``   description and transforms of robots that nobody else describes
+``setting_up.py``       the controllers of robots that pages have spawned
 ``robot_topics.py``     what moves: transforms, joints, odometry, commands, wheels
 ``states.py``           … assembled into the binary states
 ``topic_feeds.py``      the topics that pages show, subscribed while they do

@@ -15,14 +15,13 @@ from rclpy.node import Node
 from visualization_msgs.msg import MarkerArray
 
 from amr_description.clock import NANOSECONDS
-from amr_description.errors import AmrError, ViewerError
+from amr_description.errors import AmrError, PartlyDoneError, ViewerError
 from amr_description.model.frames import Vector
 from amr_description.viewer.backend import Answer, Hold, Watched
 from amr_description.viewer.bags import BAG_REQUESTS
 from amr_description.viewer.joint_groups import ControllerJoints, joint_groups, with_moves
 from amr_description.viewer.protocol import (
     Channel,
-    Commanders,
     ControllerInfo,
     Graph,
     Notice,
@@ -44,6 +43,7 @@ from amr_description.viewer.requests import (
     SetGoal,
     SetInitialPose,
     SetParameter,
+    SetUp,
     SimulatorRequest,
     Spawn,
     Switch,
@@ -57,19 +57,18 @@ from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
 from amr_description.viewer.ros.page_recorder import PageRecorder
 from amr_description.viewer.ros.parameters import NodeParameters
 from amr_description.viewer.ros.publications import fields_of_type, Publications
-from amr_description.viewer.ros.robot import RobotConnection, still_held
+from amr_description.viewer.ros.robot import commanders_of, RobotConnection, still_held
 from amr_description.viewer.ros.service_clients import (
-    activate_controllers,
-    active_controllers,
     command_timeout,
     list_controllers,
     ServiceClients,
     SimulatorClient,
     switch_controllers,
 )
+from amr_description.viewer.ros.setting_up import set_up
 from amr_description.viewer.ros.spawned_robots import SpawnedRobots
 from amr_description.viewer.ros.states import StateAssembler
-from amr_description.viewer.ros.world_change import change_world, Resident
+from amr_description.viewer.ros.world_change import change_world, residents_of
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server
 
@@ -92,8 +91,8 @@ class GraphBackend(GraphObserver):
         executor: that spins it.
         log_error: logs a line about an exception that is a bug.
         publish_description: returns a node that publishes a description and the transforms of its
-            links in a namespace, ``(namespace, urdf)``; for robots that pages spawn. Raises
-            AmrError.
+            links in a namespace, ``(namespace, urdf)``; for robots that nobody else describes.
+            Raises AmrError.
         bags: the folder in which pages have bags recorded.
     """
 
@@ -170,7 +169,11 @@ class GraphBackend(GraphObserver):
         now = time.monotonic()
         if now >= self._status_due:
             self._status_due = now + _STATUS_PERIOD
-            messages = [*messages, *self._statuses(), *self._commanders(now)]
+            messages = [
+                *messages,
+                *self._statuses(),
+                *commanders_of(self._monitor.connections, now),
+            ]
             if (ages := self._states.ages()) is not None:
                 messages.append(ages)
         return messages, state
@@ -271,8 +274,10 @@ class GraphBackend(GraphObserver):
                 return f'{name} is stopped: nothing is published on {topic} until it is released'
         return None
 
-    async def _simulate(self, request: SimulatorRequest | Switch) -> str:
-        """Switch controllers, or have a simulator do something; return what was done."""
+    async def _simulate(self, request: SimulatorRequest | SetUp | Switch) -> str:
+        """Have controllers switched, or a simulator do something; return what was done."""
+        if isinstance(request, SetUp):
+            return await self._set_up(request.robot, request.like)
         if isinstance(request, Switch):
             manager = self._connection(request.robot).found.manager
             if manager is None:
@@ -287,43 +292,35 @@ class GraphBackend(GraphObserver):
             raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
         try:
             if isinstance(request, LoadWorld):
-                residents = self._residents(simulator)
+                spawned = self._monitor.entities.spawned.get(simulator.name, ())
+                connections = self._monitor.connections
+                residents = residents_of(simulator.name, spawned, self._infos, connections)
                 return await change_world(self._services, simulator, residents, request)
             done = await simulator.handle(request)
         finally:
             self._start(self._refresh(simulator))
-        return f'{done}{await self._set_up(request)}' if isinstance(request, Spawn) else done
+        return await self._spawned_by(request, done) if isinstance(request, Spawn) else done
 
-    async def _set_up(self, request: Spawn) -> str:
+    async def _spawned_by(self, request: Spawn, done: str) -> str:
         """Give a spawned robot its description, and the active controllers of one it is like."""
         robot = f'/{request.namespace.strip("/")}'
         if robot not in self._monitor.connections:  # nobody publishes its description yet
             urdf = request.urdf if request.like is None else self._description_of(request.like)
             self._executor.create_task(self._spawned.add, robot, urdf)
         if request.like is None:
-            return ''
-        like = self._connection(request.like)
-        if like.found.manager is None:
-            return ''
-        manager = robot.rstrip('/') + like.found.manager.removeprefix(like.found.id.rstrip('/'))
+            return done
         try:
-            names = await active_controllers(self._services, like.found.manager)
-            await activate_controllers(self._services, manager, names)
-        except ViewerError as error:
-            return f', but its controllers are not active: {error}'
-        return f'; active: {", ".join(names) or "no controllers"}'
+            active = await self._set_up(robot, request.like)
+        except PartlyDoneError as error:
+            raise PartlyDoneError(f'{done}, but {error}', error.again) from error
+        return f'{done}; {active}' if active else done
 
-    def _residents(self, simulator: SimulatorClient) -> list[Resident]:
-        """Return the robots of a simulator's world, those of which the entity is known."""
-        found = []
-        for name, each in self._monitor.connections.items():
-            if each.described is not None and each.found.is_present:
-                names = (name.strip('/'), each.described.name)
-                entity = next((one for one in names if one in simulator.entities), None)
-                if entity is not None:
-                    urdf = each.described.message.urdf
-                    found.append(Resident(entity, name, urdf, each.found.manager))
-        return found
+    async def _set_up(self, robot: str, like: str) -> str:
+        listed = self._controllers.get(like)
+        try:
+            return await set_up(self._services, robot, self._connection(like), listed)
+        finally:
+            self._list_controllers(robot)
 
     def mesh(self, name: str) -> Path | bytes | None:
         """Return a file that a description names, or its converted data."""
@@ -381,6 +378,11 @@ class GraphBackend(GraphObserver):
         if self._held:
             self._executor.create_task(self._set_held)
 
+    def graph_polled(self) -> None:
+        """Describe the robots of worlds that nobody describes."""
+        spawned = [each for all in self._monitor.entities.spawned.values() for each in all]
+        self._spawned.look(spawned, self._monitor.found.robots, time.monotonic())
+
     def description_changed(self, connection: RobotConnection) -> None:
         """Publish the description."""
         if connection.described is not None:
@@ -420,6 +422,18 @@ class GraphBackend(GraphObserver):
     def _publish_graph(
         self, robots: tuple[RobotInfo, ...], sensors: tuple[SensorInfo, ...]
     ) -> None:
+        silent = {
+            each.id: self._simulators[each.id].entities
+            for each in self._monitor.found.simulators
+            if each.id in self._simulators and not each.hears_wrenches
+        }
+        robots = tuple(
+            replace(
+                each,
+                entity=self._monitor.entities.entity_of(each.id, self._urdf_of(each.id), silent),
+            )
+            for each in robots
+        )
         self._infos, self._sensors = robots, sensors
         simulators = tuple(each.info for each in self._simulators.values())
         hint = None if robots else self._hint()
@@ -455,11 +469,16 @@ class GraphBackend(GraphObserver):
             raise ViewerError(f'there is no robot {robot!a}; there are: {known}')
         return connection
 
+    def _urdf_of(self, robot: str) -> str | None:
+        connection = self._monitor.connections.get(robot)  # None: it has gone meanwhile
+        described = None if connection is None else connection.described
+        return None if described is None else described.message.urdf
+
     def _description_of(self, robot: str) -> str:
-        described = self._connection(robot).described
-        if described is None:
+        self._connection(robot)  # raises: it is not known
+        if (urdf := self._urdf_of(robot)) is None:
             raise ViewerError(f'the description of {robot} has not come yet')
-        return described.message.urdf
+        return urdf
 
     def _now(self) -> int:
         """Return ROS time, ns: that of /clock if it is published, else the node's."""
@@ -543,15 +562,6 @@ class GraphBackend(GraphObserver):
 
         self._start(activate())
 
-    def _commanders(self, now: float) -> list[Commanders]:
-        """Return who commands each robot, with rates in whole Hz: this is sent on changes."""
-        found = []
-        for name, each in self._monitor.connections.items():
-            command = each.topics.command
-            rate = 0.0 if command is None else command.rate(now)
-            found.append(Commanders(name, each.commanders, _whole(rate)))
-        return found
-
     def _ask_for_world(self, simulator: str) -> None:
         if (client := self._simulators.get(simulator)) is not None:
             client.has_new_world = True
@@ -586,8 +596,3 @@ class GraphBackend(GraphObserver):
         task = asyncio.get_running_loop().create_task(run())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
-
-
-def _whole(rate: float) -> float:
-    """Return a rate as pages show it, Hz; one below that of a second is 1: somebody is there."""
-    return float(max(round(rate), 1)) if rate else 0.0

@@ -4,8 +4,8 @@
 Watches the ROS graph, and connects the viewer with its robots and simulators.
 
 Everything here runs on the ROS thread. What the server's thread reads,
-:attr:`GraphMonitor.connections`, :attr:`GraphMonitor.found`, :attr:`GraphMonitor.pushing` and
-``states.sources``, is replaced as a whole and never modified.
+:attr:`GraphMonitor.connections`, :attr:`GraphMonitor.found`, :attr:`GraphMonitor.pushing`,
+``entities.spawned`` and ``states.sources``, is replaced as a whole and never modified.
 """
 
 from collections.abc import Mapping, Set as AbstractSet
@@ -36,6 +36,7 @@ from amr_description.viewer.graph import (
     NAVIGATE_FEEDBACK,
     ODOMETRY,
     SENSORS,
+    SPAWN_ENTITY,
     STATISTICS_VALUES,
     STRING,
     TF,
@@ -43,6 +44,7 @@ from amr_description.viewer.graph import (
 )
 from amr_description.viewer.joint_groups import POSITIONS, TRAJECTORY
 from amr_description.viewer.requests import Part
+from amr_description.viewer.ros.entity_topics import EntityTopics
 from amr_description.viewer.ros.introspection import GraphMessage, Introspection
 from amr_description.viewer.ros.pushing import Pushing
 from amr_description.viewer.ros.robot import RobotConnection, WorldSubscription
@@ -62,6 +64,7 @@ _PUBLISHED_TYPES = {
     MARKERS,
     NAVIGATE_FEEDBACK,
     ODOMETRY,
+    SPAWN_ENTITY,
     STATISTICS_VALUES,
     STRING,
     TF,
@@ -84,7 +87,10 @@ class GraphObserver:
     """Callbacks of :class:`GraphMonitor`, on the ROS thread; by default they do nothing."""
 
     def graph_changed(self) -> None:
-        """``found`` or ``connections`` have changed."""
+        """``found``, ``connections`` or ``entities`` have changed."""
+
+    def graph_polled(self) -> None:
+        """The graph was looked at, and may be as before."""
 
     def description_changed(self, connection: RobotConnection) -> None:
         """The description of a robot was received, or has changed."""
@@ -116,6 +122,7 @@ class GraphMonitor:
         """By the id of the robot."""
         self.topics = TopicFeeds(node, states.time_at)
         self.introspection = Introspection(node, lambda *told: self.observer.graph_shown(*told))
+        self.entities = EntityTopics(node, lambda: self.observer.graph_changed())
         self._node = node
         self._states = states
         self._services = services
@@ -195,6 +202,7 @@ class GraphMonitor:
         self._watch_parts()  # of new robots, and of those whose layout is known by now
         self.topics.refresh()
         self.introspection.poll()
+        self.observer.graph_polled()
 
     def _forget_dead_clock(self) -> None:
         """Stamp no command with the time of a simulation that has ended: it would be too old."""
@@ -213,6 +221,7 @@ class GraphMonitor:
             connection.destroy()
         self.topics.find(found.sensors)
         self._connect_worlds({each.id: each.world for each in found.simulators if each.world})
+        self.entities.find({each.id: each.spawned for each in found.simulators})
         self._connect_pushing({each.id for each in found.simulators if each.hears_wrenches})
         if has_other_frames and self._timer is not None:  # the frames of a robot never expire
             assert self._transforms is not None, 'a session is open'

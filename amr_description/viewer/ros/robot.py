@@ -26,7 +26,7 @@ from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
 from amr_description.viewer.backend import Hold
 from amr_description.viewer.graph import FoundRobot
-from amr_description.viewer.protocol import RobotInfo
+from amr_description.viewer.protocol import Commanders, RobotInfo
 from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.joint_commands import JointCommands
@@ -303,6 +303,22 @@ class RobotConnection:
             self.set_timeout(self.timeout)
 
 
+def commanders_of(connections: Mapping[str, RobotConnection], now: float) -> list[Commanders]:
+    """
+    Return who commands each robot, with rates in whole Hz: this is sent on changes.
+
+    Args:
+        connections: By the ids of the robots.
+        now: s of a monotonic clock.
+    """
+    found = []
+    for name, each in connections.items():
+        command = each.topics.command
+        rate = 0.0 if command is None else command.rate(now)
+        found.append(Commanders(name, each.commanders, _whole(rate)))
+    return found
+
+
 def still_held(connection: RobotConnection) -> str:
     """Return what to say of a robot that STOP still holds when this node ends."""
     robot, found = connection.found.id, []
@@ -312,6 +328,11 @@ def still_held(connection: RobotConnection) -> str:
     if connection.deactivated:
         found.append(f'inactive: {", ".join(connection.deactivated)}')
     return f'STOP still holds {robot}: {"; ".join(found)}'
+
+
+def _whole(rate: float) -> float:
+    """Return a rate as pages show it, Hz; one below that of a second is 1: somebody is there."""
+    return float(max(round(rate), 1)) if rate else 0.0
 
 
 def _full_name(info: TopicEndpointInfo) -> str:

@@ -20,7 +20,7 @@ from controller_manager_msgs.srv import (
     SwitchController,
 )
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters, SetParameters
+from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
 from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
@@ -109,6 +109,7 @@ _MANAGER_TYPES = {
     'switch_controller': SwitchController,
     'load_controller': LoadController,
     'configure_controller': ConfigureController,
+    'list_parameters': ListParameters,
 }
 
 
@@ -430,23 +431,35 @@ async def active_controllers(services: ServiceClients, manager: str) -> list[str
 
 
 async def activate_controllers(
-    services: ServiceClients, manager: str, names: Sequence[str]
-) -> None:
+    services: ServiceClients, manager: str, names: Sequence[str] | None
+) -> Sequence[str]:
     """
     Load and activate controllers in a new controller manager, which is waited for.
 
     Those that it brought up by itself, of the Gazebo sensors and plugins of a robot, are left as
     they are.
 
+    Args:
+        services: The clients.
+        manager: The manager.
+        names: Of the controllers; None: all that its parameter file has.
+
+    Returns:
+        Their names.
+
     Raises:
         ViewerError: the new manager is not there, or cannot activate one of them.
     """
     deadline = asyncio.get_running_loop().time() + _MANAGER_TIMEOUT
-    needed = [f'{manager}/{name}' for name in ('list_controllers', 'load_controller')]
+    needed = [
+        f'{manager}/{name}' for name in ('list_controllers', 'load_controller', 'list_parameters')
+    ]
     while not all(name in services for name in needed):
         if asyncio.get_running_loop().time() > deadline:
             raise ViewerError(f'{manager} is not there after {_MANAGER_TIMEOUT:g} s')
         await asyncio.sleep(_MANAGER_PERIOD)
+    if names is None:
+        names = await _controllers_of_file(services, manager)
     listed = await services.call(f'{manager}/list_controllers', ListControllers.Request())
     states = {each.name: each.state for each in listed.controller}
     for name in names:
@@ -456,6 +469,14 @@ async def activate_controllers(
             if not response.ok:
                 raise ViewerError(f'{manager} does not {verb} {name}; its log says why')
     await _switch(services, manager, [each for each in names if states.get(each) != 'active'], [])
+    return names
+
+
+async def _controllers_of_file(services: ServiceClients, manager: str) -> list[str]:
+    """Return the controllers that a manager has parameters of, which name their types."""
+    response = await services.call(f'{manager}/list_parameters', ListParameters.Request())
+    names = [each.split('.') for each in response.result.names]
+    return [name for name, *rest in names if rest == ['type']]
 
 
 async def _switch(

@@ -1,11 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The descriptions and transforms of robots that pages have spawned.
+The descriptions and transforms of robots in a simulator's world that nobody else describes.
 
 A simulator has a robot's joints, not its TF: that comes of a robot_state_publisher in the robot's
 namespace, which whoever spawns a robot starts, as launch files do. The viewer has one for each
-robot that a page spawned, until the robot is deleted or the viewer ends.
+robot that a page spawned, and for those that are in a world without one, as their launch file, or
+the viewer before, has ended: until the robot is deleted, somebody else describes it, or the viewer
+ends.
 """
 
 from collections.abc import Callable, Collection, Iterable
@@ -14,7 +16,11 @@ from rclpy.executors import Executor
 from rclpy.node import Node
 
 from amr_description.errors import AmrError
+from amr_description.viewer.entities import SpawnedEntity, undescribed
 from amr_description.viewer.graph import FoundRobot
+
+PATIENCE = 2.0
+"""s in which a launch file starts the node that describes a robot, or that node is found."""
 
 
 class SpawnedRobots:
@@ -39,6 +45,8 @@ class SpawnedRobots:
         self._nodes: dict[str, Node] = {}
         self._present: set[str] = set()
         """Those that were found in the graph: they can be deleted."""
+        self._missing: dict[str, float] = {}
+        """Since when nobody describes a robot, s."""
 
     def add(self, robot: str, urdf: str) -> None:
         """Publish a description, unless it is done already."""
@@ -51,6 +59,24 @@ class SpawnedRobots:
             return
         self._nodes[robot] = node
         self._executor.add_node(node)
+
+    def look(
+        self, spawned: Collection[SpawnedEntity], robots: Iterable[FoundRobot], now: float
+    ) -> None:
+        """
+        Describe the robots of a world that nobody has described for some time, and no others.
+
+        Args:
+            spawned: The entities of all simulators.
+            robots: Of the graph: those that are described.
+            now: s of a monotonic clock.
+        """
+        self.retain([name for name, node in self._nodes.items() if not _is_also_described(node)])
+        missing = undescribed(spawned, {*self._nodes, *(each.id for each in robots)})
+        self._missing = {each: self._missing.get(each, now) for each in missing}
+        for robot, since in self._missing.items():
+            if now - since >= PATIENCE:
+                self.add(robot, missing[robot].urdf)
 
     def forget_deleted(self, robots: Iterable[FoundRobot]) -> None:
         """End the nodes of robots that were in the graph and are not any more."""
@@ -65,3 +91,8 @@ class SpawnedRobots:
             node = self._nodes.pop(robot)
             self._executor.remove_node(node)
             node.destroy_node()
+
+
+def _is_also_described(node: Node) -> bool:
+    """Return whether somebody else publishes what a node of ours does."""
+    return node.count_publishers(node.resolve_topic_name('robot_description')) > 1

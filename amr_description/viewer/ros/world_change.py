@@ -8,11 +8,14 @@ spawned again where they were spawned before, under the same names, with the sam
 controllers, and time goes on if it did.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from amr_description.errors import ViewerError
+from amr_description.viewer.entities import SpawnedEntity
+from amr_description.viewer.protocol import RobotInfo
 from amr_description.viewer.requests import LoadWorld, Play
+from amr_description.viewer.ros.robot import RobotConnection
 from amr_description.viewer.ros.service_clients import (
     activate_controllers,
     active_controllers,
@@ -29,6 +32,32 @@ class Resident:
     namespace: str
     urdf: str
     manager: str | None
+
+
+def residents_of(
+    simulator: str,
+    spawned: Iterable[SpawnedEntity],
+    robots: Iterable[RobotInfo],
+    connections: Mapping[str, RobotConnection],
+) -> list[Resident]:
+    """
+    Return what is spawned again in another world of a simulator.
+
+    Args:
+        simulator: Its id.
+        spawned: What it says to have spawned.
+        robots: Those of the graph, of which some are known to be entities.
+        connections: With them, by their ids.
+    """
+    found = {each.name: Resident(each.name, each.namespace, each.urdf, None) for each in spawned}
+    for robot in robots:
+        entity, connection = robot.entity, connections.get(robot.id)
+        if entity is None or entity.simulator != simulator or connection is None:
+            continue
+        if connection.described is not None:
+            urdf, manager = connection.described.message.urdf, connection.found.manager
+            found[entity.name] = Resident(entity.name, robot.id, urdf, manager)
+    return [*found.values()]
 
 
 async def change_world(

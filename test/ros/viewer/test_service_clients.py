@@ -13,7 +13,7 @@ from controller_manager_msgs.srv import (
 )
 import pytest
 from rcl_interfaces.msg import ParameterType, ParameterValue
-from rcl_interfaces.srv import GetParameters
+from rcl_interfaces.srv import GetParameters, ListParameters
 import rclpy
 from rclpy.node import Node
 from std_srvs.srv import Empty
@@ -72,8 +72,9 @@ def test_when_commands_expire_is_what_their_controller_says(values, timeout):
 class Manager:
     """A controller manager, asked as :class:`ServiceClients` asks it."""
 
-    def __init__(self, **states):
+    def __init__(self, parameters=(), **states):
         self.states = states
+        self.parameters = parameters
 
     def __contains__(self, name):
         return name.startswith('/robot1/controller_manager/')
@@ -82,6 +83,10 @@ class Manager:
         if isinstance(request, ListControllers.Request):
             found = [ControllerState(name=n, state=s) for n, s in self.states.items()]
             return ListControllers.Response(controller=found)
+        if isinstance(request, ListParameters.Request):
+            response = ListParameters.Response()
+            response.result.names = [*self.parameters]
+            return response
         if isinstance(request, LoadController.Request):
             is_new = request.name not in self.states
             self.states.setdefault(request.name, 'unconfigured')
@@ -101,3 +106,17 @@ def test_controllers_that_a_robot_brings_along_are_no_hindrance_to_the_others():
     manager = Manager(imu='active', range='inactive', wrench='unconfigured')
     asyncio.run(activate_controllers(manager, '/robot1/controller_manager', names))
     assert manager.states == dict.fromkeys(names, 'active')
+
+
+def test_of_a_robot_that_nobody_knows_any_more_all_controllers_of_the_file_are_active():
+    parameters = (
+        'update_rate',
+        'drive.type',
+        'drive.node_options_args',
+        'joints.type',
+        'a.b.type',
+    )
+    manager = Manager(parameters)
+    names = asyncio.run(activate_controllers(manager, '/robot1/controller_manager', None))
+    assert names == ['drive', 'joints']
+    assert manager.states == {'drive': 'active', 'joints': 'active'}

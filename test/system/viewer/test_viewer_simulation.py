@@ -115,6 +115,23 @@ def robot(page, name):
     return next((each for each in page.last('graph')['robots'] if each['id'] == name), None)
 
 
+def entities_of(page):
+    """What each robot is in the simulator's world, as last told."""
+    robots = {each['id']: each['entity'] for each in page.last('graph')['robots']}
+    assert {each['simulator'] for each in robots.values() if each} <= {SIMULATOR}
+    return {name: each and each['name'] for name, each in robots.items()}
+
+
+def drives(page, ask, name, namespace):
+    """A robot like the one of the root that has gone has its controllers, and goes."""
+    active = f"'{name}' is in the world; active: {', '.join(CONTROLLERS)}"
+    assert ask.spawn(name, namespace, 0.0) == (True, active)
+    page.wait(lambda: entities_of(page).get(namespace) == name)
+    page.wait(lambda: robot(page, namespace)['present'] and robot(page, namespace)['command'])
+    start = page.wait(lambda: place(page, namespace))
+    drive_until(page, namespace, lambda: distance(page, namespace, start) > 0.05)
+
+
 def states_of(page, name):
     """Controller → state, as last told."""
     told = [each for each in page.of('controllers') if each['robot'] == name]
@@ -294,6 +311,7 @@ def test_a_page_spawns_another_that_can_be_driven_and_deletes_it(page, ask, driv
     )  # fmt: skip
     page.wait(lambda: any(each['robot'] == '/robot1' for each in page.of('model')))
     page.wait(lambda: robot(page, '/robot1') and robot(page, '/robot1')['command'])
+    page.wait(lambda: entities_of(page) == {'/': 'amr', '/robot1': 'robot1'})
     start = page.wait(lambda: place(page, '/robot1'))
     drive_until(page, '/robot1', lambda: distance(page, '/robot1', start) > 0.05)
     page.wait(lambda: {each['name'] for each in page.last('layout')['frames']} >= LINKS)
@@ -383,10 +401,27 @@ def test_a_deleted_robot_is_only_described(page, ask, driven):
     assert robot(page, '/')['present']
     assert ask.simulator('delete', name='amr')[0]
     page.wait(lambda: not robot(page, '/')['present'])
-    assert ask.spawn('again', '/again', 0.0)[0]
-    page.wait(lambda: robot(page, '/again') and robot(page, '/again')['present'])
+    page.wait(lambda: entities_of(page) == {'/': None})
+    drives(page, ask, 'again', '/again')
     assert ask.simulator('delete', name='again')[0]
     page.wait(lambda: robot(page, '/again') is None)
+    drives(page, ask, 'amr', '/')  # in the place of the first
+    assert ask.simulator('delete', name='amr')[0]
+    page.wait(lambda: not robot(page, '/')['present'])
+
+
+def test_a_robot_is_described_when_who_has_spawned_it_has_ended(page, ask):
+    """Of who comes later it has the controllers of the parameter file: he never saw the first."""
+    with viewer() as program, Page(url_of(program)) as other:
+        other.wait(lambda: other.last('model') and simulators(other))
+        drives(other, Asker(other), 'robot3', '/robot3')
+        page.wait(lambda: entities_of(page).get('/robot3') == 'robot3')
+        assert program.end(signal.SIGINT) == 0
+    page.wait(lambda: robot(page, '/robot3') is None)  # who described it has ended
+    page.wait(lambda: entities_of(page).get('/robot3') == 'robot3')
+    page.wait(lambda: place(page, '/robot3'))
+    assert ask.simulator('delete', name='robot3')[0]
+    page.wait(lambda: robot(page, '/robot3') is None)
 
 
 def test_a_world_that_somebody_else_loads_is_told(page):

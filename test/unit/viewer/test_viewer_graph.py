@@ -27,6 +27,7 @@ from amr_description.viewer.graph import (
     RANGE,
     robot_of,
     SET_SIMULATION_STATE,
+    SPAWN_ENTITY,
     STATISTICS_VALUES,
     STRING,
     TF,
@@ -214,6 +215,14 @@ def test_a_simulator_is_a_node_that_serves_set_simulation_state():
     }  # fmt: skip
     (found,) = discover(GraphNames({}, {}, services)).simulators
     assert found.world is None
+    published = {
+        '/mujoco_sim/spawned/b': [SPAWN_ENTITY],
+        '/mujoco_sim/spawned/a': [SPAWN_ENTITY],
+        '/mujoco_sim/spawned/c': [STRING],
+        '/other/spawned/a': [SPAWN_ENTITY],
+    }
+    (found,) = discover(GraphNames(published, {}, services)).simulators
+    assert found.spawned == ('/mujoco_sim/spawned/a', '/mujoco_sim/spawned/b')
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,7 @@ interface Item {
  */
 function itemsOf(store: Store): readonly Item[] {
   const { robot, diagnostics } = store;
-  const simulated = robot !== null && store.entityOf(robot.id) !== null;
+  const simulated = robot !== null && (robot.entity ?? robot.truth) !== null;
   const items = robot === null ? [] : (diagnostics.get(robot.id)?.items ?? []);
   return items.map((item) => {
     const problems = item.message.split(';').map((problem) => problem.trim());

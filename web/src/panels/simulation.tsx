@@ -52,7 +52,7 @@ function SimulationPanel({ app, state, offer }: PanelProps & { offer: Offer }) {
           ))}
         </ul>
       </Section>
-      <Section title="Another robot like this one">
+      <Section title={offer.again === null ? 'Another robot like this one' : 'The robot again'}>
         <SpawnForm offer={offer} state={state} />
       </Section>
     </>

@@ -4,6 +4,7 @@
 import { signal } from '@preact/signals';
 import { ask, type App } from '../app';
 import { freeName } from '../format';
+import type { RobotInfo } from '../protocol';
 import type { MarkedPlace } from '../scene/placing';
 import type { State } from '../state';
 import { freePlace, isFree, type Footprint, type Point } from './free_place';
@@ -58,7 +59,8 @@ export class Offer {
       return;
     }
     if (!this.isNamed) {
-      this.name.value = freeName(this.app.store.simulator?.entities ?? []);
+      const name = this.again?.name.replace(/\W/g, '_') || undefined;
+      this.name.value = freeName(this.app.store.simulator?.entities ?? [], name);
     }
     if (!this.isPlaced && this.isBlind()) {
       this.x.value = this.y.value = ''; // what was offered before the robots came
@@ -133,11 +135,12 @@ export class Offer {
     const name = this.name.peek();
     this.busy.value = name;
     const { x, y } = this.place;
+    const namespace = this.again?.id ?? `/${name}`;
     const isDone = await ask(app, {
       type: 'spawn',
       simulator: simulator.id,
       name,
-      namespace: `/${name}`,
+      namespace,
       position: [x, y, 0],
       yaw: radians(this.yaw.peek()),
       like: pattern.id,
@@ -148,9 +151,15 @@ export class Offer {
       this.x.value = '';
       this.yaw.value = '0';
       this.ground()?.markPlace(null);
-      this.ground()?.bringIntoView(`/${name}`);
+      this.ground()?.bringIntoView(namespace);
     }
     this.renew();
+  }
+
+  /** The robot that was deleted, and is offered again; null: it is another one beside those that are there. */
+  get again(): RobotInfo | null {
+    const { pattern } = this.app.store;
+    return pattern?.present === false ? pattern : null;
   }
 
   private get place(): Point {
