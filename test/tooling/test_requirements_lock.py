@@ -116,3 +116,20 @@ def test_developers_lock_pins_what_the_other_one_does_not_have_or_the_same():
     assert 'mypy' in pinned
     both = {canonical(name): version for name, version in pinned.items()}
     assert {name: PINNED.get(name, version) for name, version in both.items()} == both
+
+
+def test_the_actions_of_others_are_pinned_to_commits():
+    """A tag can be moved to other code; the version is for who reads it."""
+    used = [
+        line.strip().removeprefix('- ')
+        for path in sorted((ROOT / '.github' / 'workflows').glob('*.yml'))
+        for line in path.read_text(encoding='utf-8').splitlines()
+        if line.strip().removeprefix('- ').startswith('uses:')
+    ]
+    assert used
+    pinned = re.compile(r'uses: [\w.-]+/[\w./-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+')
+    assert [each for each in used if not pinned.fullmatch(each)] == []
+    versions = {each.split('@')[0]: set() for each in used}
+    for each in used:
+        versions[each.split('@')[0]].add(each)
+    assert {len(each) for each in versions.values()} == {1}, 'one version of each'
