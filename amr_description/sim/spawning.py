@@ -27,6 +27,8 @@ _SHORT = 30
 _FARTHEST = 1e8
 """m; numerics of physics are lost beyond."""
 _LONGEST_NAME = 200
+_LONGEST_NAMESPACE = 245
+"""rcl's limit."""
 _NAME = re.compile(r'[A-Za-z0-9_.-]+')
 
 
@@ -95,6 +97,22 @@ def checked_pose(pose: Transform) -> Transform:
     x, y, z, w = (part / length for part in pose.rotation)
     rotation: Quaternion = (x, y, z, w)
     return Transform(pose.translation, rotation)
+
+
+def checked_namespace(namespace: str) -> str:
+    """Return a namespace, absolute. Raises SpawnError: ROS does not allow it."""
+    absolute = f'/{namespace.removeprefix("/")}'
+    parts = absolute.removeprefix('/').split('/')
+    if len(absolute) > _LONGEST_NAMESPACE or (
+        absolute != '/' and not all(part.isidentifier() and part.isascii() for part in parts)
+    ):
+        raise SpawnError(
+            f"the entity's namespace is '{one_line(shorten(namespace))}', which ROS does not "
+            "allow: its parts are letters, digits and '_', and do not begin with a digit, and "
+            f'{_LONGEST_NAMESPACE} characters are the most',
+            SpawnCode.NAMESPACE_INVALID,
+        )
+    return absolute
 
 
 def read_description(text: str, source: str, log: Log = null_log, strict: bool = False) -> Robot:

@@ -16,39 +16,30 @@ in the form of the message::
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from amr_description.control.contracts import Input, Severity
-from amr_description.control.loop import Loop
 from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
-from amr_description.errors import SimulationError, SpawnError
+from amr_description.errors import SimulationError
 from amr_description.messages.readers import sample_of
 from amr_description.model.controller_files import declared_controllers
 from amr_description.model.frames import Transform, Vector
-from amr_description.model.gazebo import ros2_control_host_of
-from amr_description.model.gazebo_bridge import bridged
 from amr_description.model.gazebo_builder import GazeboTranslation
-from amr_description.model.gazebo_translation import translate
-from amr_description.model.robot import Robot as Description
-from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameters import build
-from amr_description.sim.spawning import check_name, read_description, SpawnCode
 from amr_description.simulation.api import SimulationApi
-from amr_description.simulation.local_manager import LocalManager
+from amr_description.simulation.engine import SimulationEngine, Spawned
+from amr_description.simulation.local_manager import LocalHost, LocalManager
 from amr_description.simulation.log_lines import LogLines
-from amr_description.simulation.managed_robots import ManagedRobots, ManagerStart
-from amr_description.simulation.manager_arguments import manager_arguments, rollers_of
-from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
-from amr_description.simulation.plugin_controllers import log_translation, start_controllers
+from amr_description.simulation.parameters import SimulationParameters
+from amr_description.simulation.plugin_controllers import start_controllers
 from amr_description.simulation.readings import Image
 from amr_description.simulation.robot import Robot
 from amr_description.simulation.sensors import Instruments, RobotSensors
 from amr_description.simulation.spawned_controllers import spawn_declared, Topics, topics_of
 from amr_description.simulation.tracebacks import is_for_the_test
-from amr_description.simulation.worlds import world_of
-from amr_description.text import plain_name
 
 __tracebackhide__ = is_for_the_test
 
@@ -65,16 +56,17 @@ class Simulation(SimulationApi[Robot]):
     def _start(self, stack: ExitStack) -> None:
         self._lines = LogLines()
         self._log = self._lines.log_of(_NODE)
-        self._settings = build(SimulationParameters, self._parameters)
-        self.world = world_of(self._settings, self._log)
+        settings = replace(build(SimulationParameters, self._parameters), paused=True)
+        self._engine = SimulationEngine(
+            settings,
+            self._log,
+            _Calls(),
+            lambda world: (world, _NeverPaced(), _Nobody()),
+            remedy='run() and step() let time go on, reset() begins anew',
+        )
+        self._loop, self.world = self._engine.loop, self._engine.world
         """The physics; for the model and the state of MuJoCo."""
-        self._calls = _Calls()
-        self._loop = Loop(self.world, _NeverPaced(), self._calls, _Nobody(), CLOCK_PERIOD)
-        self._loop.pause()
-        self._managed = ManagedRobots(self.world, self._loop, self._log, lift=self._settings.lift)
-        self._instruments = Instruments(self.world, self._settings.camera_renderer, self._log)
-        if self._settings.on_fault == 'pause':
-            self.world.faults.on_fault = lambda: self._calls.put(self._loop.pause)
+        self._instruments = Instruments(self.world, settings.camera_renderer, self._log)
         stack.callback(self._end)
 
     def _begin(self) -> None:
@@ -98,66 +90,32 @@ class Simulation(SimulationApi[Robot]):
 
     def _spawn(self, namespace: str, name: str, pose: Transform) -> Robot:
         """``name``: of the entity; empty: that of the URDF."""
-        settings, source = self._settings, name or 'robot_description'
-        robot = read_description(self._description, source, self._log, strict=settings.strict)
-        host = ros2_control_host_of(robot)
-        inside = _absolute(namespace or host.namespace)
-        given = name or plain_name(robot.name)
-        translation = bridged(translate(robot), self._bridge)
-        check_name(given, self.world.names)
-        manager = self._manager_of(robot, host.controller_manager_name, inside, translation)
-        start = rollers = None
-        if manager is not None:
-            rate = manager.parameters.update_rate
-            start = ManagerStart(inside, rate, manager.bring_up)
-            rollers = rollers_of(robot, translation, settings.controllers)
-        self._managed.insert(given, robot, pose, start, rollers or {})
-        log_translation(given, translation, inside, self._log)
-        topics = Topics()
-        if manager is not None:
+        engine, log = self._engine, self._log
+        robot = engine.read(self._description, name or 'robot_description')
+        host = LocalHost(self._lines, lambda: self.world.time)
+        spawned: Spawned[LocalManager] = run_at_once(
+            engine.spawn(host, name, robot, pose, namespace)
+        )
+        given, translation, inside = spawned.name, spawned.translation, spawned.namespace
+        manager, topics = None, Topics()
+        if spawned.running is not None:
+            manager, _ = spawned.running
             try:
                 topics = self._start_controllers(manager, translation)
             except BaseException:
-                self._managed.remove(given)
+                engine.remove(given)
                 raise
-        self._log(Severity.INFO, f"Spawned '{given}'")
+        log(Severity.INFO, f"Spawned '{given}'")
         view = self.world.robot(given)
         sensors = RobotSensors(self._instruments, view, translation.sensors, inside)
         return Robot(view, namespace, manager, topics, sensors)
-
-    def _manager_of(
-        self, robot: Description, name: str, namespace: str, translation: GazeboTranslation
-    ) -> LocalManager | None:
-        hardware = hardware_of(robot)
-        if not hardware:
-            return None
-        settings = self._settings
-        arguments = manager_arguments(
-            robot,
-            hardware,
-            namespace,
-            translation,
-            controllers=settings.controllers,
-            ros_args=(),
-            log=self._log,
-        )
-        return LocalManager(
-            robot,
-            hardware,
-            name,
-            namespace,
-            arguments,
-            lines=self._lines,
-            time=lambda: self._loop.time,
-            simulates_mocks=settings.mock_hardware == 'simulate',
-        )
 
     def _start_controllers(self, manager: LocalManager, translation: GazeboTranslation) -> Topics:
         """Start what stands for plugins, then the controllers; return the topics of all."""
         plugins, inside = translation.controllers, manager.namespace
         run_at_once(start_controllers(manager.requests, plugins, inside, self._log))
         name = manager.name.rpartition('/')[2]
-        declared = declared_controllers(self._files, manager.namespace, name)
+        declared = declared_controllers(self._files, inside, name)
         log = self._lines.log_of('/spawner')
         spawn_declared(log, manager, declared, self._activate)
         served = manager.served
@@ -166,12 +124,12 @@ class Simulation(SimulationApi[Robot]):
             lambda controller, kind: next(served[controller].subscribed(kind), ''),
             lambda controller, kind: next(served[controller].published(kind), ''),
             translation,
-            manager.namespace,
+            inside,
         )
 
     def _delete(self, robot: Robot) -> None:
         robot.close()
-        self._managed.remove(robot.name)
+        self._engine.remove(robot.name)
 
     # --- time ---------------------------------------------------------------------------------
 
@@ -187,22 +145,21 @@ class Simulation(SimulationApi[Robot]):
 
     def _advance(self, count: int) -> None:
         self._require_running()
-        loop, step = self._loop, self.world.timestep
         try:
-            missing = loop.step_through(count * step)
+            missing = self._loop.step_through(count * self.world.timestep)
         except BaseException:  # Ctrl-C; what comes next begins a step of its own
-            loop.pause()
+            self._loop.pause()
             raise
         if missing:
             raise SimulationError(
-                f'{-(-missing // step)} of {count} steps were not made: the simulation was '
-                'played, paused, reset or ended meanwhile'
+                f'{self._engine.missing_steps(missing)} of {count} steps were not made: the '
+                'simulation was played, paused, reset or ended meanwhile'
             )
 
     def reset(self) -> None:
         """Reset: time 0, robots where they were spawned, odometry at zero."""
         self._require_running()
-        self._managed.reset()
+        self._engine.reset()
         for robot in self._robots.values():
             robot.forget()
 
@@ -336,16 +293,3 @@ class _Nobody:
 
     def publish(self, time: int) -> None:
         """There are no topics."""
-
-
-def _absolute(namespace: str) -> str:
-    """Return a namespace, absolute. Raises SpawnError: ROS does not allow it."""
-    absolute = f'/{namespace.removeprefix("/")}'
-    parts = absolute.removeprefix('/').split('/')
-    if absolute != '/' and not all(part.isidentifier() and part.isascii() for part in parts):
-        raise SpawnError(
-            f"the entity's namespace is '{namespace}', which ROS does not allow: its parts are "
-            "letters, digits and '_', and do not begin with a digit",
-            SpawnCode.NAMESPACE_INVALID,
-        )
-    return absolute

@@ -3,7 +3,7 @@
 """The controller manager of a robot, in this process: brought up, and asked as by services."""
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.plugin_errors import log_error
@@ -15,9 +15,8 @@ from amr_description.controller_manager.plain_parameters import PlainParameters
 from amr_description.controller_manager.requests import ManagerRequests, run_at_once
 from amr_description.controller_manager.spawner import ControllerState, reason_of
 from amr_description.errors import ControllerError, ParameterError
-from amr_description.model.hardware_info import HardwareInfo
-from amr_description.model.robot import Robot
 from amr_description.sim.robot_view import RobotView
+from amr_description.simulation.engine import Arrival
 from amr_description.simulation.log_lines import LogLines
 from amr_description.simulation.plain_controllers import (
     Newest,
@@ -26,6 +25,7 @@ from amr_description.simulation.plain_controllers import (
     SIM_TIME,
 )
 
+_Result = TypeVar('_Result')
 _TIMEOUT = 5_000_000_000
 """ns, of a switch; none is ever waited for."""
 
@@ -42,68 +42,56 @@ class LocalManager:
 
     def __init__(
         self,
-        robot: Robot,
-        hardware: Sequence[HardwareInfo],
-        name: str,
-        namespace: str,
-        arguments: Sequence[str],
+        arrival: Arrival,
         *,
         lines: LogLines,
         time: Callable[[], int],
-        simulates_mocks: bool,
     ) -> None:
         """
         Read its parameters.
 
         Args:
-            robot: Its description.
-            hardware: What its ``<ros2_control>`` blocks say.
-            name: Of the manager.
-            namespace: Of the manager, absolute.
-            arguments: ROS arguments for it and for every controller.
+            arrival: Its robot, and how it is called.
             lines: Get what it logs.
             time: Returns the present time, ns.
-            simulates_mocks: Mock hardware is simulated; False: it stays a mock.
 
         Raises:
             ParameterError: A parameter is no good, as an ``update_rate`` of 0.
         """
-        self.name = f'{namespace.rstrip("/")}/{name}'
-        self.namespace = namespace
-        self._robot, self._hardware = robot, hardware
-        self._lines, self._time, self._simulates_mocks = lines, time, simulates_mocks
-        self._log = lines.log_of(self.name)
-        self._host = PlainHost(namespace, lines.log_of, time)
+        self.namespace, arguments = arrival.namespace, arrival.arguments
+        self.name = f'{self.namespace.rstrip("/")}/{arrival.manager_name}'
+        self._robot, self._hardware = arrival.robot, arrival.hardware
+        self._lines, self._log = lines, lines.log_of(self.name)
+        self._host = PlainHost(self.namespace, lines.log_of, time)
         self._asked = 0
         """Lines of log before the last request."""
         store = PlainParameters(self.name, arguments, SIM_TIME)
         self.parameters = ManagerParameters(store, arguments, self._log)
 
-    def bring_up(self, view: RobotView, period: int) -> ControllerManager:
-        """
-        Start the hardware, and return the manager.
+    @property
+    def update_rate(self) -> int:
+        """Hz."""
+        return self.parameters.update_rate
 
-        Args:
-            view: The robot in the world.
-            period: Between two cycles, ns.
-
-        Raises:
-            HardwareError: A component cannot be started; or what one of a third party raises.
-        """
+    def bring_up(self, world: RobotView, period: int, simulates_mocks: bool) -> ControllerManager:
+        """See :class:`~amr_description.simulation.engine.PreparedManager`."""
         inside = self.namespace.rstrip('/')
         manager = bring_up(
             self.parameters,
             self._log,
             self._robot,
             [(info, self._lines.log_of(f'{inside}/{info.name}')) for info in self._hardware],
-            world=view,
+            world=world,
             period=period,
-            simulates_mocks=self._simulates_mocks,
+            simulates_mocks=simulates_mocks,
         )
         self.requests = ManagerRequests(
             self._host, self._log, self.parameters, manager, robot=self._robot
         )
         return manager
+
+    def destroy(self) -> None:
+        """It has nothing that would have to be removed."""
 
     @property
     def served(self) -> Mapping[str, PlainController]:
@@ -194,6 +182,26 @@ class LocalManager:
             log_error(self._log, error)
             return False
         return True
+
+
+class LocalHost:
+    """
+    Makes the managers of robots, in one thread with the engine.
+
+    It is a :class:`~amr_description.simulation.engine.ManagerHost`.
+    """
+
+    def __init__(self, lines: LogLines, time: Callable[[], int]) -> None:
+        """``lines``: get what managers log; ``time``: returns the present time, ns."""
+        self._lines, self._time = lines, time
+
+    def prepare(self, arrival: Arrival) -> LocalManager:
+        """Make the manager of a robot. Raises ParameterError."""
+        return LocalManager(arrival, lines=self._lines, time=self._time)
+
+    async def ask(self, call: Callable[[], _Result]) -> _Result:
+        """Make a call: this is the control thread."""
+        return call()
 
 
 class _State:

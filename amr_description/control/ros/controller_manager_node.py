@@ -119,6 +119,16 @@ class PreparedManager:
     robot: Robot | None
     components: Sequence[tuple[HardwareInfo, ComponentNode]]
 
+    @property
+    def namespace(self) -> str:
+        """Of its node, absolute."""
+        return self.manager_node.node.get_namespace()
+
+    @property
+    def update_rate(self) -> int:
+        """Hz."""
+        return self.manager_node.parameters.update_rate
+
     def bring_up(
         self, world: World | None, period: int, simulates_mocks: bool = False
     ) -> ControllerManager:

@@ -7,7 +7,7 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 import enum
 
@@ -25,24 +25,16 @@ from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import RequestError
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import ros2_control_host_of
-from amr_description.model.gazebo_bridge import Bridge, bridged
-from amr_description.model.gazebo_builder import GazeboTranslation
-from amr_description.model.gazebo_translation import translate
-from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
-from amr_description.model.rollers import Rollers
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_thread
 from amr_description.sim.robot_spec import WORLD_LINK
 from amr_description.sim.ros.executor_tasks import abandon, run_in
 from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.ros.sensors.manager import SensorManager
-from amr_description.sim.spawning import check_name, free_name, SpawnCode
-from amr_description.sim.world import MujocoWorld
-from amr_description.simulation.managed_robots import ManagedRobots, ManagerStart
-from amr_description.simulation.manager_arguments import manager_arguments, rollers_of
-from amr_description.simulation.plugin_controllers import log_translation, start_controllers
+from amr_description.sim.spawning import SpawnCode
+from amr_description.simulation.engine import Arrival, SimulationEngine, Spawned
+from amr_description.simulation.plugin_controllers import start_controllers
 
 
 class Category(enum.IntEnum):
@@ -64,16 +56,6 @@ class EntityRecord:
     tags: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Spawned:
-    """With what an entity was spawned."""
-
-    robot: Robot
-    namespace: str
-    """Absolute."""
-    pose: Transform
-
-
 @dataclass(slots=True)
 class Entity:
     """A robot in the world, completely spawned."""
@@ -84,65 +66,51 @@ class Entity:
     """None: its URDF has no ``<ros2_control>`` block."""
     thread: ExecutorThread | None
     """Runs the callbacks of the manager, its components and controllers."""
-    origin: Spawned | None = None
+    origin: Spawned[PreparedManager] | None = None
+    """With what it was spawned."""
 
 
 class EntityManager:
     """
     Spawns and removes entities.
 
-    The coroutines run on the ROS thread and await the control thread.
+    The coroutines run on the ROS thread and await the control thread. It makes the managers for
+    the engine: a :class:`~amr_description.simulation.engine.ManagerHost`.
     """
 
     def __init__(
         self,
         context: LoopContext,
-        world: MujocoWorld,
+        engine: SimulationEngine,
         ground_truth: GroundTruth,
         sensors: SensorManager,
-        *,
         executor: Executor,
         log: Log,
-        controllers: str,
-        bridge: Bridge,
-        simulates_mocks: bool,
-        lift: bool,
-        ros_args: Sequence[str],
     ) -> None:
         """
         Manage the entities of a world that has none yet.
 
         Args:
             context: Of the control loop.
-            world: The simulated world.
+            engine: Of the simulation.
             ground_truth: Gets every entity.
             sensors: Gets the sensors of every entity.
             executor: Of the ROS thread.
             log: Of the simulator.
-            controllers: Path of the managers' parameter file, or empty.
-            bridge: What topics of Gazebo are called.
-            simulates_mocks: Mock hardware is simulated; False: it stays a mock.
-            lift: Whether a robot that would be inside the world is lifted until it is free.
-            ros_args: ROS arguments for every manager and controller.
         """
         self._context = context
         self._loop_thread = context.loop_thread
-        self._world = world
+        self._engine = engine
         self._ground_truth = ground_truth
         self._sensors = sensors
         self._executor = executor
         self._log = log
-        self._controllers = controllers
-        self._bridge = bridge
-        self._simulates_mocks = simulates_mocks
-        self._ros_args = ros_args
+        self.ask = context.loop_thread.submit
         self.on_change: Callable[[], None] = lambda: None
         """Called when an entity was spawned, before its controllers start, or removed."""
         self._entities: dict[str, Entity] = {}
         self._starting: dict[str, Future] = {}
         """Of entities whose controllers are being started: done when they are."""
-        self._robots = ManagedRobots(world, context.loop_thread.loop, log, lift=lift)
-        """Used on the control thread only."""
 
     def __iter__(self) -> Iterator[Entity]:
         """Iterate over all entities, in the order in which they were spawned."""
@@ -168,48 +136,22 @@ class EntityManager:
         allow_renaming: bool = False,
     ) -> str:
         """
-        Put a robot into the world and start its controller manager, if it has hardware.
+        Put a robot into the world and start its controller manager; return its name.
 
-        Args:
-            name: Of the entity.
-            robot: Its description.
-            pose: Transform from its root link to the world.
-            namespace: Of the controller manager, absolute.
-            allow_renaming: Use another name if this one is taken.
-
-        Returns:
-            The name of the entity.
-
-        Raises:
-            SpawnError, DescriptionError, HardwareError, ParameterError: or whatever the
-                constructor of a third-party component raises; nothing is left of the robot then.
+        See :meth:`~amr_description.simulation.engine.SimulationEngine.spawn`.
         """
-        hardware = hardware_of(robot)
-        translation = bridged(translate(robot), self._bridge)
-        prepared = self._prepare(robot, hardware, namespace, translation) if hardware else None
-        rollers: Mapping[str, Rollers] = {}
-        if hardware:
-            rollers = rollers_of(robot, translation, self._controllers)
-        start = self._start_of(prepared) if prepared is not None else None
-
-        def insert() -> tuple[str, ControllerManager | None]:
-            given = free_name(name, self._world.names) if allow_renaming else name
-            check_name(given, self._world.names)
-            return given, self._robots.insert(given, robot, pose, start, rollers)
-
-        try:
-            given, manager = await self._loop_thread.submit(insert)
-        except Exception:
-            if prepared is not None:
-                prepared.destroy()
-            raise
+        spawned: Spawned[PreparedManager] = await self._engine.spawn(
+            self, name, robot, pose, namespace, allow_renaming=allow_renaming
+        )
+        given, translation = spawned.name, spawned.translation
         running = thread = None
-        log_translation(given, translation, namespace, self._log)
-        if prepared is not None:
-            running, thread = self._serve(prepared, manager, given)
-        self._ground_truth.add(given, namespace)
-        self._sensors.add(given, namespace, translation.sensors)
-        self._add(given, Spawned(robot, namespace, pose), running, thread)
+        if spawned.running is not None:
+            running, thread = self._serve(*spawned.running, given)
+        self._ground_truth.add(given, spawned.namespace)
+        self._sensors.add(given, spawned.namespace, translation.sensors)
+        record = EntityRecord(_category_of(robot))
+        self._entities[given] = Entity(given, record, running, thread, spawned)
+        self.on_change()
         if running is not None and thread is not None:
             requests, at = running.requests, running.node.get_namespace()
             starting = start_controllers(requests, translation.controllers, at, self._log)
@@ -218,17 +160,6 @@ class EntityManager:
             if self._starting.get(given) is started:  # not removed meanwhile, and spawned again
                 del self._starting[given]
         return given
-
-    def _add(
-        self,
-        name: str,
-        origin: Spawned,
-        running: RunningManager | None,
-        thread: ExecutorThread | None,
-    ) -> None:
-        record = EntityRecord(_category_of(origin.robot))
-        self._entities[name] = Entity(name, record, running, thread, origin)
-        self.on_change()
 
     async def remove(self, name: str) -> None:
         """
@@ -244,7 +175,7 @@ class EntityManager:
             await run_in_thread(entity.thread.end, self._executor, f'end of {name}')
         if name in self._starting:  # who spawns it still waits for the thread that has ended
             abandon(self._starting.pop(name), self._executor)
-        await self._loop_thread.submit(lambda: self._robots.remove(name))
+        await self._loop_thread.submit(lambda: self._engine.remove(name))
         _destroy(entity)
         self.on_change()
 
@@ -256,10 +187,6 @@ class EntityManager:
             count += 1
         return count
 
-    def reset(self, *, time: bool, state: bool) -> None:
-        """Reset world and managers; on the control thread. See :meth:`ManagedRobots.reset`."""
-        self._robots.reset(time=time, state=state)
-
     def destroy(self) -> None:
         """Destroy all nodes, after the control thread has stopped."""
         threads = [each.thread for each in self._entities.values() if each.thread is not None]
@@ -269,14 +196,6 @@ class EntityManager:
             thread.end()
         for entity in self._entities.values():
             _destroy(entity)
-
-    def _start_of(self, prepared: PreparedManager) -> ManagerStart:
-        """Return what brings a manager up, on the control thread."""
-        return ManagerStart(
-            prepared.manager_node.node.get_namespace(),
-            prepared.manager_node.parameters.update_rate,
-            lambda view, period: prepared.bring_up(view, period, self._simulates_mocks),
-        )
 
     def _serve(
         self, prepared: PreparedManager, manager: ControllerManager, name: str
@@ -290,32 +209,16 @@ class EntityManager:
         thread.start()
         return running, thread
 
-    # --- the manager's node -------------------------------------------------------------------
-
-    def _prepare(
-        self,
-        robot: Robot,
-        hardware: Sequence[HardwareInfo],
-        namespace: str,
-        translation: GazeboTranslation,
-    ) -> PreparedManager:
-        arguments = manager_arguments(
-            robot,
-            hardware,
-            namespace,
-            translation,
-            controllers=self._controllers,
-            ros_args=self._ros_args,
-            log=self._log,
-        )
+    def prepare(self, arrival: Arrival) -> PreparedManager:
+        """Make the nodes of a robot's manager and of its components. Raises ParameterError."""
         with argument_errors():
             node = ControllerManagerNode(
                 self._context,
-                name=ros2_control_host_of(robot).controller_manager_name,
-                namespace=namespace,
-                arguments=arguments,
+                name=arrival.manager_name,
+                namespace=arrival.namespace,
+                arguments=arrival.arguments,
             )
-        return node.prepare(robot, hardware)
+        return node.prepare(arrival.robot, arrival.hardware)
 
 
 def _destroy(entity: Entity) -> None:

@@ -24,12 +24,10 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from amr_description.bag.run_description import RunDescription, RunRobot
-from amr_description.control.contracts import Severity
-from amr_description.control.loop import Loop
+from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
 from amr_description.control.ros.pacing import WallPacer
-from amr_description.model.gazebo_bridge import bridge_of
 from amr_description.parameters import specs
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
@@ -42,8 +40,8 @@ from amr_description.sim.ros.run_recording import controllers_text, on_loop, Run
 from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.ros.spawned_topics import SpawnedTopics
 from amr_description.sim.world import MujocoWorld
-from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
-from amr_description.simulation.worlds import world_of
+from amr_description.simulation.engine import SimulationEngine
+from amr_description.simulation.parameters import SimulationParameters
 
 PAUSED_CLOCK_PERIOD = 0.1
 """s of the wall clock between two messages on ``/clock`` while paused."""
@@ -73,8 +71,6 @@ class Simulation:
     The coroutines run on the ROS thread and await the control thread.
     """
 
-    world_name: str
-    """Of the present world: a shipped name, or a path."""
     on_world: Callable[[], None] | None = None
     """Called when there is another world."""
 
@@ -97,8 +93,6 @@ class Simulation:
         Raises:
             SimulationError: There is no such world, or MuJoCo rejects it.
         """
-        self.parameters = parameters
-        """At the start."""
         self._node = node
         self._is_stopped = self._is_quitting = False
         self._executor = executor
@@ -107,23 +101,27 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             publisher = self.publisher = ClockedLoopPublisher(node)
             publisher.adopt(node)
-            self.world, self.world_name = world_of(parameters, self.log), parameters.world
-            ground_truth = self._ground_truth = GroundTruth(
-                node, publisher, self.world, parameters.ground_truth_rate, self._has_ticked
-            )
             calls = CallQueue(PAUSED_CLOCK_PERIOD)
             self._pacer = WallPacer(parameters.real_time_factor, calls)
-            profiler = LoopProfiler(self.log, self.world, self._pacer, publisher)
+            self.engine = SimulationEngine(
+                parameters,
+                self.log,
+                calls,
+                self._ports,
+                ros_args=ros_args,
+                remedy='~/set_simulation_state lets time go on, ~/reset_simulation begins anew',
+            )
+            self.world = self.engine.world
+            self._ground_truth = GroundTruth(
+                node, publisher, self.world, parameters.ground_truth_rate, self._has_ticked
+            )
             self.loop_thread = LoopThread(calls, executor)
             self.loop_thread.log = self.log
-            self.loop_thread.loop = Loop(profiler, profiler, calls, profiler, CLOCK_PERIOD)
-            self._pauses_on_fault = parameters.on_fault == 'pause'
-            self.world.faults.on_fault = lambda: calls.put(self._on_fault)
-            if parameters.paused:
-                self.loop_thread.loop.pause()
-            context = LoopContext(self.loop_thread, publisher, self.logs)
+            self.loop_thread.loop = self.engine.loop
             self._sensors = self._sensor_manager()
-            self.entities = self._entity_manager(context, ground_truth, ros_args)
+            context = LoopContext(self.loop_thread, publisher, self.logs)
+            parts = self._ground_truth, self._sensors, executor, self.log
+            self.entities = EntityManager(context, self.engine, *parts)
             self.recording = self._recording(calls)
         except Exception:
             self.logs.stop()
@@ -133,25 +131,9 @@ class Simulation:
         add_validation_callback(node, SimulationParameters)
         node.add_post_set_parameters_callback(self._on_parameters_set)
 
-    def _entity_manager(
-        self,
-        context: LoopContext,
-        ground_truth: GroundTruth,
-        ros_args: Sequence[str],
-    ) -> EntityManager:
-        return EntityManager(
-            context,
-            self.world,
-            ground_truth,
-            self._sensors,
-            executor=self._executor,
-            log=self.log,
-            controllers=self.parameters.controllers,
-            bridge=bridge_of(self.parameters.bridge),
-            simulates_mocks=self.parameters.mock_hardware == 'simulate',
-            lift=self.parameters.lift,
-            ros_args=ros_args,
-        )
+    def _ports(self, world: MujocoWorld) -> tuple[Stepper, Pacer, Publisher]:
+        profiler = LoopProfiler(self.log, world, self._pacer, self.publisher)
+        return profiler, profiler, profiler
 
     def _sensor_manager(self) -> SensorManager:
         sensors = SensorManager(
@@ -161,7 +143,7 @@ class Simulation:
             self.log,
             self._is_paced,
             self._has_ticked,
-            self.parameters.camera_renderer,
+            self.engine.settings.camera_renderer,
         )
         sensors.on_first = self._serve_measurements
         return sensors
@@ -211,9 +193,9 @@ class Simulation:
             is_told = value != spec.default or spec.name == 'camera_renderer'
             if is_told and spec.name not in _OF_THE_PROCESS:
                 changed[spec.name] = value
-        if self.world_name != SimulationParameters.world:
-            changed['world'] = self.world_name
-        path = self.parameters.controllers
+        if self.engine.world_name != SimulationParameters.world:
+            changed['world'] = self.engine.world_name
+        path = self.engine.settings.controllers
         first = next((each.origin.robot for each in self.entities if each.origin), None)
         return RunDescription(changed, controllers_text(path, first), robots)
 
@@ -286,10 +268,9 @@ class Simulation:
 
         The file is read first, so that the present world and its robots stay where it is no world.
         """
-        await self.loop_thread.submit(lambda: MujocoWorld(world, settings=self.parameters.physics))
+        await self.loop_thread.submit(lambda: self.engine.check_world(world))
         await self.stop()
-        await self.loop_thread.submit(lambda: self.world.load(world))
-        self.world_name = world
+        await self.loop_thread.submit(lambda: self.engine.load_world(world))
         self.recording.update()
         if self.on_world is not None:
             self.on_world()
@@ -307,8 +288,8 @@ class Simulation:
         Steps are left out when the simulation is played, paused or reset meanwhile. Raises
         SimulationError: it is not paused, or is already stepping.
         """
-        step = self.world.timestep
-        return -(-await self.loop_thread.step(count * step) // step)
+        missing = await self.loop_thread.step(count * self.world.timestep)
+        return self.engine.missing_steps(missing)
 
     async def reset(self, *, time: bool = True, state: bool = True) -> None:
         """
@@ -322,26 +303,16 @@ class Simulation:
         def reset() -> None:
             self._ground_truth.restart()
             self.recording.restart()
-            self.entities.reset(time=time, state=state)
+            self.engine.reset(time=time, state=state)
 
         await self.loop_thread.submit(reset)
 
     def _on_parameters_set(self, _: Sequence[Parameter]) -> None:
         """Apply ``real_time_factor`` and ``on_fault``; the others are read-only."""
         now = values(self._node, SimulationParameters)
-        self._pauses_on_fault = now.on_fault == 'pause'
+        self.engine.pauses_on_fault = now.on_fault == 'pause'
         if now.real_time_factor != self._pacer.factor:
             loop = self.loop_thread.loop
             self.loop_thread.submit(
                 lambda: self._pacer.set_factor(now.real_time_factor, loop.time)
-            )
-
-    def _on_fault(self) -> None:
-        """Pause after a fault, if ``on_fault`` says so; called between two cycles."""
-        if self._pauses_on_fault:
-            self.loop_thread.loop.pause()
-            self.log(
-                Severity.WARN,
-                'paused, as on_fault says; ~/set_simulation_state lets time go on, '
-                '~/reset_simulation begins anew',
             )

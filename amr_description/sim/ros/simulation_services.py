@@ -260,7 +260,7 @@ class WorldServices:
     async def _get_current_world(
         self, _: GetCurrentWorld.Request, response: GetCurrentWorld.Response
     ) -> None:
-        response.world = _resource(world_path(self._simulation.world_name))
+        response.world = _resource(world_path(self._simulation.engine.world_name))
 
     async def _get_available_worlds(
         self, request: GetAvailableWorlds.Request, response: GetAvailableWorlds.Response

@@ -6,9 +6,7 @@ from pathlib import Path
 from urllib.parse import parse_qsl
 
 from geometry_msgs.msg import PoseStamped
-from rclpy.exceptions import InvalidNamespaceException
 from rclpy.node import Node
-from rclpy.validate_namespace import validate_namespace
 from simulation_interfaces.msg import Result, SimulatorFeatures, Spawnable, SpawnResult
 from simulation_interfaces.srv import (
     DeleteEntity,
@@ -35,7 +33,6 @@ from amr_description.model.description_file import (
     split_uri,
     takes_arguments,
 )
-from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.ros.messages import transform_of
 from amr_description.ros.runtime import run_in_thread
@@ -43,9 +40,7 @@ from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.ros.trusted_files import distrust, folder_of
-from amr_description.sim.spawn_cost import announce, cost_of
-from amr_description.sim.spawning import read_description, SpawnCode
-from amr_description.text import plain_name, unwrap
+from amr_description.sim.spawning import SpawnCode
 
 FEATURES = (
     SimulatorFeatures.SPAWNING,
@@ -143,16 +138,13 @@ class SpawnServices:
 
     async def _spawn(self, request: SpawnEntity.Request, text: str, source: str) -> str:
         """Spawn an entity; return its name. Raises SpawnError, or whatever a component raises."""
-        strict = self._simulation.parameters.strict
-        robot = read_description(text, source, self._simulation.log, strict=strict)
+        robot = self._simulation.engine.read(text, source)
         _check_frame(request.initial_pose)
-        announce(request.name or robot.name, cost_of(robot), self._simulation.log)
-        namespace = request.entity_namespace or ros2_control_host_of(robot).namespace
         name = await self._simulation.entities.spawn(
-            request.name or plain_name(robot.name),
+            request.name,
             robot,
             transform_of(request.initial_pose.pose),
-            _checked_namespace(namespace),
+            request.entity_namespace,
             allow_renaming=request.allow_renaming,
         )
         self._simulation.log(Severity.INFO, f"Spawned '{name}'")
@@ -209,17 +201,3 @@ def _check_frame(pose: PoseStamped) -> None:
             f"the initial pose is given in the frame '{frame}'; '{WORLD_FRAME}' is known here",
             SpawnCode.INVALID_POSE,
         )
-
-
-def _checked_namespace(namespace: str) -> str:
-    """Return the namespace, absolute. Raises SpawnError."""
-    absolute = f'/{namespace.removeprefix("/")}'
-    try:
-        validate_namespace(absolute)
-    except InvalidNamespaceException as error:
-        raise SpawnError(
-            f"the entity's namespace is '{namespace}', which ROS does not allow: "
-            f'{unwrap(str(error))}',
-            SpawnCode.NAMESPACE_INVALID,
-        ) from error
-    return absolute

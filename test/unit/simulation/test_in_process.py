@@ -13,9 +13,10 @@ from amr_description.control.contracts import Controller, Input, Output, Port
 from amr_description.control.interfaces import InterfaceRequest
 from amr_description.control.plugin_errors import log_error
 from amr_description.control.samples import CommandsSample, OdometrySample, TwistSample
-from amr_description.errors import AmrError, SimulationError
+from amr_description.errors import AmrError, SimulationError, SpawnError
 from amr_description.model.frames import Transform
 from amr_description.parameters import parameter
+from amr_description.sim.spawning import checked_namespace
 from amr_description.simulation.log_lines import LogLines
 
 URDF = ROOT / 'urdf' / 'amr.urdf'
@@ -134,6 +135,28 @@ def test_what_cannot_be_started_says_so_in_a_line(arguments, words):
     ):
         pass
     assert '\n' not in str(refusal.value)
+
+
+def test_a_fault_pauses_if_asked_and_time_goes_on_when_it_is_let(tmp_path):
+    world = tmp_path / 'table.xml'
+    world.write_text(
+        '<mujoco><worldbody><geom name="table" type="box" size="1 1 .1" pos="0 0 -.1"/>'
+        '</worldbody></mujoco>'
+    )
+    beside = Transform((5.0, 0.0, 0.0))
+    with Simulation(URDF, world=world, pose=beside, parameters={'on_fault': 'pause'}) as sim:
+        with pytest.raises(SimulationError, match='of 500 steps were not made'):
+            sim.step(500)
+        fallen = sim.time
+        assert 'paused, as on_fault says; run() and step() let time go on' in sim.log
+        sim.run(0.1)
+        assert sim.time == pytest.approx(fallen + 0.1)
+
+
+@pytest.mark.parametrize('namespace', ['7up', 'a b', 'a//b', 'é', 'a' * 250])
+def test_a_namespace_that_ros_does_not_allow_is_refused(namespace):
+    with pytest.raises(SpawnError, match='which ROS does not allow: its parts are letters'):
+        checked_namespace(namespace)
 
 
 def test_outside_of_its_block_it_does_nothing():
