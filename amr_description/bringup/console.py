@@ -156,7 +156,9 @@ class Console:
         except BlockingIOError:  # a terminal that another program made non-blocking is busy
             pass
         except OSError as error:  # a full disk costs the output, never the run
-            self._screen = None
+            screen, self._screen = self._screen, None
+            with contextlib.suppress(OSError):
+                screen.close()  # or else what it still holds would be a traceback at its end
             self._reader_gone = error.errno in (errno.EPIPE, errno.EIO)
             if self._reader_gone and self._reader_gone_callback:
                 self._reader_gone_callback()

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 from amr_description.model.checks import Examination
 from amr_description.model.findings import Finding
-from amr_description.model.footprint import Footprint
 from amr_description.model.robot import Robot
 from amr_description.text import one_line
 
 if TYPE_CHECKING:
+    from amr_description.model.footprint import Footprint
     from amr_description.sim.drop_test import DropReport
 
 REFUSED = 'ERROR: Model Parsing the xml failed'
@@ -146,7 +146,7 @@ def _as_dict(finding: Finding) -> dict[str, object]:
     }
 
 
-def footprint_yaml(found: Footprint) -> str:
+def footprint_yaml(found: 'Footprint') -> str:
     """Return the line of a parameter file of Nav2, and what is to be known of it as a comment."""
     warning = (
         ''
@@ -160,7 +160,7 @@ def footprint_yaml(found: Footprint) -> str:
     )
 
 
-def footprint_json(found: Footprint) -> str:
+def footprint_json(found: 'Footprint') -> str:
     """Return the same as one JSON object; m."""
     values = asdict(found) | {
         'inscribed_radius': found.inscribed_radius,

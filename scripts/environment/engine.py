@@ -54,8 +54,13 @@ def prepared(python: str) -> Path:
     if (folder / 'complete').exists():
         return own
     shutil.rmtree(folder, ignore_errors=True)
-    subprocess.check_call([python, '-m', 'venv', str(folder)])
-    install = [str(own), '-m', 'pip', 'install', '--quiet', '--no-deps', '--only-binary=:all:']
+    # Debian's Python has no pip to put there: then the one that runs this does it.
+    has_pip = subprocess.call([python, '-c', 'import ensurepip'], stderr=subprocess.DEVNULL) == 0
+    options = [] if has_pip else ['--without-pip']
+    subprocess.check_call([python, '-m', 'venv', *options, str(folder)])
+    own_pip, ours = [str(own), '-m', 'pip'], [sys.executable, '-m', 'pip', '--python', str(own)]
+    pip = own_pip if has_pip else ours
+    install = [*pip, 'install', '--quiet', '--no-deps', '--only-binary=:all:']
     install += ['--no-input', '--disable-pip-version-check']
     subprocess.check_call([*install, *(f'-r{path}' for path in LOCKS)])
     (folder / 'complete').touch()

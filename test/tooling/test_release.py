@@ -30,6 +30,7 @@ from releasing import (
     versions,
 )
 from releasing.archives import Member
+from support.needs import need_program
 from support.paths import ROOT
 import yaml
 
@@ -251,6 +252,7 @@ def test_libraries_are_those_of_the_system_or_of_a_wheel():
 
 @pytest.mark.skipif(Path(sys.prefix) != ROOT / '.venv', reason='needs .venv')
 def test_a_library_is_read_by_objdump(tmp_path, monkeypatch):
+    need_program('objdump', 'binutils')
     shutil.copy(Path(get_package_prefix('tf2_msgs'), 'lib', LIBRARY), tmp_path)
     provided = {path.name for path in Path(sys.prefix, 'lib').glob('*.so*')}
     assert binaries.check(tmp_path, provided)['GLIBC'].startswith('2.')

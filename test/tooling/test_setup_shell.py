@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from support.needs import need_complete_python
 from support.paths import ROOT
 
 ACTIVATE = ROOT / 'scripts' / 'activate'
@@ -63,6 +64,7 @@ def set_up(bare, **environment):
 
 
 def test_python_on_the_path_is_taken(bare):
+    need_complete_python()
     (bare[1] / 'python3').symlink_to(sys._base_executable)
     assert set_up(bare).stdout == f'started by {bare[1]}/python3 []\n'
 
@@ -93,6 +95,7 @@ def test_a_python_is_taken_when_apt_can_bring_what_it_lacks(bare):
 
 
 def test_python_that_does_not_start_is_passed_over(bare):
+    need_complete_python()
     # As pyenv's python3.12 does when another version is chosen.
     program(bare[1] / 'python3.12', 'echo "pyenv: python3.12: command not found" >&2; exit 127')
     (bare[1] / 'python3').symlink_to(sys._base_executable)
@@ -100,6 +103,7 @@ def test_python_that_does_not_start_is_passed_over(bare):
 
 
 def test_python_of_pyenv_is_found(bare, tmp_path):
+    need_complete_python()
     python = tmp_path / 'py env/versions/3.12.1/bin/python3'
     program(python, f'exec {sys._base_executable} "$@"')
     done = set_up(bare, PYENV_ROOT=str(tmp_path / 'py env'))
@@ -107,6 +111,7 @@ def test_python_of_pyenv_is_found(bare, tmp_path):
 
 
 def test_python_of_a_pyenv_that_only_the_path_names_is_found(bare, tmp_path):
+    need_complete_python()
     root = tmp_path / 'py env'
     program(root / 'versions/3.12.1/bin/python3', f'exec {sys._base_executable} "$@"')
     program(root / 'shims/python3', 'echo "pyenv: python3: command not found" >&2; exit 127')
@@ -115,6 +120,7 @@ def test_python_of_a_pyenv_that_only_the_path_names_is_found(bare, tmp_path):
 
 
 def test_python_of_uv_is_found(bare):
+    need_complete_python()
     program(
         bare[0] / '.local/bin/uv',
         'case "$*" in --version) ;; "python find 3.12")'
@@ -146,6 +152,7 @@ def test_no_python_gives_the_reasons_and_the_ways(bare):
 
 
 def test_named_python_is_taken_or_refused(bare):
+    need_complete_python()
     chosen = set_up(bare, AMR_PYTHON=sys._base_executable)
     assert chosen.stdout.startswith(f'started by {sys._base_executable}')
     refused = set_up(bare, AMR_PYTHON='/nowhere/python')
@@ -154,6 +161,7 @@ def test_named_python_is_taken_or_refused(bare):
 
 
 def test_a_named_python_takes_the_place_of_that_of_an_environment(bare):
+    need_complete_python()
     program(bare[0] / '.venv/bin/python', 'case "$1" in -ESc) ;; *) echo the old one ;; esac')
     assert set_up(bare).stdout == 'the old one\n'
     assert set_up(bare, AMR_PYTHON=sys._base_executable).stdout.startswith('started by')

@@ -11,6 +11,7 @@ of a name no topic may have, is ``_`` in its own.
 
 from collections.abc import Callable, Iterable
 import re
+from typing import Any
 
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -18,8 +19,9 @@ from simulation_interfaces.msg import SpawnEntity
 
 from amr_description.ros.messages import fill_pose
 from amr_description.ros.qos import LATCHED
-from amr_description.sim.ros.entities import Entity, Spawned
+from amr_description.sim.ros.entities import Entity
 from amr_description.sim.ros.names import WORLD_FRAME
+from amr_description.simulation.engine import Spawned
 
 _NO_TOKEN = re.compile(r'[^A-Za-z0-9]+|^(?=[0-9])')
 
@@ -36,7 +38,7 @@ class SpawnedTopics:
     def __init__(self, node: Node, entities: Callable[[], Iterable[Entity]]) -> None:
         self._node = node
         self._entities = entities
-        self._publishers: dict[str, tuple[Spawned, Publisher]] = {}
+        self._publishers: dict[str, tuple[Spawned[Any], Publisher]] = {}
 
     def update(self) -> None:
         """Publish those that are new; those that have left the world have no topic any more."""
@@ -62,7 +64,7 @@ class SpawnedTopics:
         return topic
 
 
-def _message(name: str, origin: Spawned) -> SpawnEntity:
+def _message(name: str, origin: Spawned[Any]) -> SpawnEntity:
     message = SpawnEntity(name=name, entity_namespace=origin.namespace)
     message.entity_resource.resource_string = origin.robot.text
     message.initial_pose.header.frame_id = WORLD_FRAME

@@ -71,8 +71,9 @@ def test_an_unknown_word_is_told_with_those_there_are():
     result = ros2('topic', 'ecko')
     assert (result.returncode, result.stdout) == (2, '')
     assert result.stderr.startswith('usage: ros2 topic [-h]')
-    known = ', '.join(map(repr, sorted(VERBS)))
-    assert f"invalid choice: 'ecko' (choose from {known})\n" in result.stderr
+    known = ', '.join(sorted(VERBS))  # from 3.12.8 on argparse leaves out the quotes
+    said = result.stderr.replace("'", '')
+    assert f'invalid choice: ecko (choose from {known})\n' in said
 
 
 @pytest.mark.parametrize('command', INSTEAD_OF_COMMANDS)

@@ -11,6 +11,7 @@ import sysconfig
 import pytest
 from support import public_interfaces
 from support.doc_pages import Page
+from support.needs import need_compiler
 from support.paths import ROOT
 from support.shells import newcomer
 
@@ -46,6 +47,7 @@ def write_messages(source):
 
 
 def test_a_message_of_ones_own(tmp_path):
+    need_compiler()
     source = tmp_path / 'ros2_ws/src'
     lines = PAGE.text
     with newcomer(f'{lines}\n{PYTHON}\nros2 run my_code my_node', tmp_path) as shell:

@@ -224,7 +224,7 @@ def test_hardware_of_real_robots_and_mocks_is_simulated(sim, node, plugin, words
         (
             {'resource_string': URDF.replace('amr_description/MujocoSystem', 'builtins/int')},
             SpawnCode.OPERATION_FAILED,
-            'TypeError: int()',
+            'TypeError: int',
         ),
     ],
 )

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 
+from support.needs import need_compiler
 from support.running_programs import PATIENCE
 
 FILES = {
@@ -32,6 +33,7 @@ ament_package()
 
 
 def test_messages_and_a_module_of_one_name_are_built_together(tmp_path):
+    need_compiler()
     for name, text in FILES.items():
         path = tmp_path / 'src/both_pkg' / name
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -63,10 +63,12 @@ def cmake(tmp_path):
         (tmp_path / name).write_text(LACKS.format(name=name, line=line))
     (tmp_path / 'ninja').write_text(NINJA)
     (tmp_path / 'build').mkdir()
+    for name in ('cc', 'c++'):
+        (tmp_path / name).symlink_to('/bin/true')
     code = 'import sys; sys.path.insert(0, sys.argv[1]); from amr_description.workspace.cmake'
     code += ' import main; sys.exit(main(sys.argv[2], sys.argv[3:]))'
 
-    def run(*words, path=os.environ['PATH'], **variables):
+    def run(*words, path=f'{tmp_path}:{os.environ["PATH"]}', **variables):
         command = [sys.executable, '-I', '-S', '-c', code, ROOT, fake, *words]
         done = subprocess.run(
             command,
