@@ -12,12 +12,13 @@ from simulation_interfaces.msg import SpawnEntity
 from support.running_programs import PATIENCE
 
 from amr_description.model.frames import Transform
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.urdf import parse
 from amr_description.ros.messages import transform_of
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.ros.entities import Spawned
 from amr_description.sim.ros.spawned_topics import SpawnedTopics
+from amr_description.simulation.engine import Spawned
 
 POSE = Transform((1.0, 2.0, 0.5), (0.0, 0.0, 1.0, 0.0))
 ROBOT = parse(AMR)
@@ -32,7 +33,7 @@ class Entity:
 
 
 def spawned(name, namespace='/'):
-    return Entity(name, Spawned(ROBOT, namespace, POSE))
+    return Entity(name, Spawned(name, ROBOT, namespace, POSE, translate(ROBOT), None))
 
 
 @pytest.fixture
