@@ -16,7 +16,6 @@ nanoseconds.
 ``type_hashes.py``     the hashes of message types
 ``mcap_writer.py``     ``BagWriter``: a folder of MCAP files
 ``mcap_options.py``    how they are written: presets, and files of options
-``output_file.py``     the file below it: what is written is there, also when the program is killed
 ``reader.py``          ``BagReader``: messages in the order of their times, from whatever is there
 ``mcap_file.py``       an MCAP file, also one that was cut off
 ``sqlite_file.py``     a file of the older storage of rosbag2, to read

@@ -25,7 +25,6 @@ neither: its type is ``my_package.my_module/MyClass``.
 ``joint_trajectory_controller.py``     joints follow trajectories, from an action or a topic
 ``joint_trajectory_parameters.py``     … its parameters
 ``joint_trajectory_interfaces.py``     … interfaces of its joints, and their combinations
-``joint_trajectory_ports.py``          … its topics, service and action
 ``joint_trajectory.py``                … splines between points in time
 ``trajectory_tolerances.py``           … how far a joint may be from them
 ``trajectory_checks.py``               … why a trajectory is not accepted

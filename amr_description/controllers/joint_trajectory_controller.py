@@ -69,9 +69,12 @@ from amr_description.controllers.joint_trajectory import (
     shortest_angular_distance,
     Trajectory,
 )
-from amr_description.controllers.joint_trajectory_interfaces import JointHandles, JointLayout
+from amr_description.controllers.joint_trajectory_interfaces import (
+    JointHandles,
+    JointLayout,
+    TrajectoryPorts,
+)
 from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
-from amr_description.controllers.joint_trajectory_ports import TrajectoryPorts
 from amr_description.controllers.pid import Pid
 from amr_description.controllers.trajectory_checks import TrajectoryRules
 from amr_description.controllers.trajectory_tolerances import Violation

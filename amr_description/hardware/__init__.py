@@ -14,7 +14,6 @@ is used. In the simulator any other name is that of a driver, and what it drives
 ``mujoco_system.py``         the joints and sensors of a simulated robot
 ``simulated_sensors.py``     … its sensors: poses, forces and torques, magnetic fields
 ``simulated_sensor.py``      … what they have in common: where they are mounted
-``simulated_imu.py``         … its inertial measurement units
 ``simulated_range.py``       … its range finders
 ``sensor_noise.py``          … the noise of all these
 ``mock_system.py``           states follow commands at once, without physics

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import (
+    IMU_INTERFACES,
     MAGNETIC_INTERFACES,
     POSE_INTERFACES,
     StateInterface,
@@ -27,13 +28,33 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.world import World
 from amr_description.errors import HardwareError
-from amr_description.hardware.simulated_imu import SimulatedImu
 from amr_description.hardware.simulated_range import SimulatedRange
 from amr_description.hardware.simulated_sensor import Mount, mount_of, SimulatedSensor
 from amr_description.model.frames import conjugate, multiply, rotate, Transform
 from amr_description.model.gazebo import gazebo_sensors_of
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import JointType, Robot
+
+
+class SimulatedImu(SimulatedSensor):
+    """The state interfaces of a unit: unit quaternion, rad/s and m/s², gravity included."""
+
+    interfaces = IMU_INTERFACES
+
+    def __init__(self, states: Sequence[StateInterface], world: World, mount: Mount) -> None:
+        """Take a unit."""
+        super().__init__(states, world, mount)
+        reference = None if mount.gazebo is None else mount.gazebo.reference
+        self._to_reference = None if reference is None else conjugate(reference)
+
+    def measure(self, period: float) -> Sequence[float]:
+        """Return what the unit measures; ``period``: since the previous call, s."""
+        reading = self.world.imu(self.mount.link, self.mount.pose)
+        orientation = reading.orientation
+        if self._to_reference is not None:
+            orientation = multiply(self._to_reference, orientation)
+        # In the order of IMU_INTERFACES.
+        return (*orientation, *reading.angular_velocity, *reading.linear_acceleration)
 
 
 class SimulatedPose(SimulatedSensor):

@@ -47,7 +47,6 @@ module                   what it holds
 ``meshes.py``             mesh files as triangles: ``load_mesh(path, scale)``
 ``collada.py``            what meshes.py needs to know of COLLADA files
 ``mesh_solids.py``        meshes as solids: closed or not, mass, inertia, hull
-``convex_hull.py``        the volume of a convex hull
 ``planar_hull.py``         convex hulls in the plane, and bodies seen from above
 ``footprint.py``          the polygon of a robot on the ground, for costmaps
 ``mended_inertials.py``   mass and inertia as a solver needs them, where a file has others

@@ -21,7 +21,6 @@ module                         what it holds
 ``costmap.py``                 what it costs to be in a cell: map, scan, inflation
 ``planner.py``                 a path over a costmap: A*, smoothed
 ``regulated_pure_pursuit.py``  the velocity that follows a path
-``recoveries.py``              spin, wait, back up
 ``drive.py``                   a goal from the first step to the end: all of these together
 
 ``contract/``                  what Nav2 and slam_toolbox demand of a robot, as rules

@@ -7,7 +7,6 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``runtime.py``            start, spin and end a program; exit codes
 ``firewall.py``           what callbacks raise: log it, answer, serve on
 ``participant_end.py``    have a DDS participant end while discovery goes on
-``process_end.py``        have a process end without the destructors of C++ libraries
 ``signals.py``            SIGINT, SIGTERM, SIGHUP and the bring-up's end as one request to stop
 ``discovery.py``          have Fast DDS find other processes at once
 ``transport.py``          have Fast DDS send by UDP, so that no killed process holds us up

@@ -45,6 +45,8 @@ What a callback raises does not get that far: it is logged, and the node serves 
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+import ctypes
+from functools import cache
 from pathlib import Path
 import re
 import sys
@@ -63,7 +65,6 @@ from amr_description.errors import AmrError, CallbackError, ParameterError
 from amr_description.ros.discovery import use_whole_graph
 from amr_description.ros.firewall import caught, guard
 from amr_description.ros.participant_end import bound_listener_wait
-from amr_description.ros.process_end import skip_destructors
 from amr_description.ros.rclpy_internals import (
     cancel_tasks,
     destroy_type_description_service,
@@ -76,6 +77,24 @@ from amr_description.ros.signals import StopRequested, StopRequests
 from amr_description.ros.transport import udp_only
 from amr_description.streams import print_traceback
 from amr_description.text import unwrap
+
+
+@cache
+def skip_destructors() -> None:
+    """
+    Have this process end at once when Python has finished; call it after Fast DDS was used.
+
+    Nothing of Python's own end is left out, and what C code has written is flushed. The exit code
+    stays. A participant that is left then says no goodbye: its nodes are destroyed before.
+    """
+    libc = ctypes.CDLL(None)
+    try:
+        register = libc.on_exit  # of glibc; its functions are called in reverse order
+    except AttributeError:
+        return
+    register(libc._exit, None)  # with the exit code as its argument
+    register(libc.fcloseall, None)
+
 
 # Only a bound, s: messages, timers and end_wait() end the wait at once.
 _SPIN_TIMEOUT = 0.5

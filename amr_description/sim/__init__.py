@@ -28,12 +28,10 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``wheel_shapes.py``     which links are wheels, and the geoms with which they touch
 ``wheel_contact.py``    the contact of a wheel with the ground: the measured settings
 ``wheel_trim.py``       the same, trimmed so that each robot rests at its true height
-``roller_wheels.py``    which wheels have rollers: mecanum and omni wheels
 ``rollers.py``          … their contacts
 ``wheel_slip.py``       load and slip of wheels: ground truth
 
 ``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log
-``tilt.py``             whether a robot on wheels rears up, or lies on its side
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``wrenches.py``         pushes from outside
 ``contact_sensor.py``   a contact sensor on a robot

@@ -8,7 +8,8 @@ the rest is edited in the spec.
 """
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+import math
 
 import mujoco
 
@@ -19,19 +20,64 @@ from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import held_without_commands, Joint, JointType, Robot, WORLD_LINK
-from amr_description.model.rollers import described_rollers, Rollers
+from amr_description.model.rollers import described_rollers, FREE_PART, Rollers
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
 from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings
-from amr_description.sim.gazebo_physics import apply_gazebo_physics
+from amr_description.sim.gazebo_physics import apply_gazebo_physics, wheel_geom_name
 from amr_description.sim.meshes import insert_meshes
 from amr_description.sim.prepared_xml import COLLISION, prepared_xml
-from amr_description.sim.roller_wheels import rollers_of
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.wheel_shapes import make_wheels
 from amr_description.text import quote_all
+
+_GRIP = 1.0
+
+
+def rollers_of(
+    wheels: Iterable[Wheel],
+    described: Mapping[str, Rollers],
+    named: Mapping[str, Rollers],
+    frictions: Mapping[str, float],
+    log: Log,
+) -> dict[str, Rollers]:
+    """
+    Return the rollers of wheels by geom.
+
+    A wheel that was only to be pushed along is often given hardly any friction. If a controller
+    drives it, that is taken as its friction across its rollers.
+
+    Args:
+        wheels: of the robot.
+        described: the rollers that the description tells of, by link; they count more.
+        named: those that a controller has, by joint.
+        frictions: sliding frictions of links, by geom.
+        log: gets a line on wheels with hardly any friction.
+    """
+    found: dict[str, Rollers] = {}
+    slippery: list[Wheel] = []
+    for wheel in wheels:
+        geom = wheel_geom_name(wheel.link)
+        friction = frictions.get(geom, math.inf)
+        if wheel.link in described:
+            found[geom] = described[wheel.link]
+        elif wheel.joint in named:
+            found[geom] = named[wheel.joint]
+            if friction <= FREE_PART:
+                found[geom] = replace(found[geom], grip=_GRIP, free=friction)
+                slippery.append(wheel)
+    if slippery:
+        friction = frictions[wheel_geom_name(slippery[0].link)]
+        log(
+            Severity.WARN,
+            f'the wheels of joints {quote_all([wheel.joint for wheel in slippery])} have rollers '
+            f'for their controller, and a friction of {friction:g} in the description: taken as '
+            f'that across the rollers, and {_GRIP:g} along their axes',
+        )
+    return found
+
 
 MIMIC_SOLREF, MIMIC_SOLIMP = (0.004, 1.0), (0.999, 0.9999, 0.001, 0.5, 2.0)
 """Of the equality constraint of a mimic joint: nearly rigid, as gears are."""

@@ -6,7 +6,6 @@ Workspaces of users: what ``colcon build`` needs beside colcon itself.
 ====================  =============================================================================
 ``cmake.py``          CMake as colcon starts it: why it failed, in one line where that is known
 ``cmake_errors.py``   that line, from the words of CMake
-``cmake_stubs.py``    empty packages in place of libraries, where nothing is compiled
 ``colcon.py``         an extension of colcon: a package that fails does not stop the others
 ====================  =============================================================================
 

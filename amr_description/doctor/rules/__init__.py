@@ -8,7 +8,6 @@ The rules, a module for each family. Each has its functions in ``RULES``, root c
 ``environment.py``   environment variables
 ``processes.py``     processes of this host
 ``graph.py``         nodes; its table has those of the next three too
-``types.py``         … types of topics
 ``qos.py``           … QoS of topics
 ``topic_names.py``   … names of topics
 ``clock.py``         simulated time

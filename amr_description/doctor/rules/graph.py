@@ -3,14 +3,92 @@
 """Rules of the section ``graph``; of nodes here: names that are there twice, no answers."""
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from amr_description.doctor.findings import Finding, Rule, Severity
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.graph import GraphNode
+from amr_description.doctor.observations.graph import (
+    Endpoint,
+    GraphNode,
+    STAMPED_TWIST,
+    VELOCITY_TYPES,
+)
 from amr_description.doctor.rules.qos import incompatible_qos
 from amr_description.doctor.rules.topic_names import misnamed_topics
-from amr_description.doctor.rules.types import mismatched_definitions, mismatched_types
+from amr_description.doctor.rules.wording import names_of, short_type
+
+
+def mismatched_types(seen: Observations) -> Iterator[Finding]:
+    """Publishers and subscriptions of one topic with other types: nothing arrives."""
+    for topic in seen.graph.topics if seen.graph else ():
+        deaf = _unmatched(topic.subscriptions, topic.publishers)
+        mute = _unmatched(topic.publishers, topic.subscriptions)
+        if not deaf and not mute:
+            continue
+        subscriptions = deaf or [
+            e for e in topic.subscriptions if e.type_name != mute[0].type_name
+        ]
+        publishers = mute or [e for e in topic.publishers if e.type_name != deaf[0].type_name]
+        offered, wanted = publishers[0].type_name, subscriptions[0].type_name
+        yield Finding(
+            severity=Severity.ERROR,
+            rule='mismatched_types',
+            what=f'{names_of(publishers)} publishes {short_type(offered, wanted)} on '
+            f'{topic.name}, but {names_of(subscriptions)} subscribes to '
+            f'{short_type(wanted, offered)}',
+            why='DDS connects equal types only: nothing arrives'
+            + (', and the robot does not move' if offered in VELOCITY_TYPES else ''),
+            fix=_type_fix(topic.name, publishers, offered, wanted),
+        )
+
+
+def mismatched_definitions(seen: Observations) -> Iterator[Finding]:
+    """One type by name, built of two definitions: a workspace was not built, or not sourced."""
+    for topic in seen.graph.topics if seen.graph else ():
+        ends = [e for e in (*topic.publishers, *topic.subscriptions) if e.type_hash]
+        for name in dict.fromkeys(each.type_name for each in ends):
+            of_type = [each for each in ends if each.type_name == name]
+            hashes = dict.fromkeys(each.type_hash for each in of_type)
+            if len(hashes) < 2:
+                continue
+            parts = [[e for e in of_type if e.type_hash == each] for each in hashes]
+            yield Finding(
+                severity=Severity.ERROR,
+                rule='mismatched_definitions',
+                what=f'{name} on {topic.name} is of one definition in {names_of(parts[0])}, and '
+                f'of another in {names_of(parts[1])}',
+                why='fields are read at the wrong places, or nothing arrives at all',
+                fix=f'build {name.partition("/")[0]} from the same sources on both sides (colcon '
+                f'build --packages-up-to {name.partition("/")[0]}), source install/setup.bash, '
+                'and start both again',
+            )
+
+
+def _unmatched(ends: Sequence[Endpoint], others: Sequence[Endpoint]) -> list[Endpoint]:
+    """Return the endpoints of nodes that no other one reaches, as all have another type."""
+    if not others:
+        return []
+    types = {each.type_name for each in others}
+    # A node with an endpoint of each type follows the others.
+    reached = {each.node for each in ends if each.type_name in types}
+    return [each for each in ends if each.type_name not in types and each.node not in reached]
+
+
+def _type_fix(topic: str, publishers: Sequence[Endpoint], offered: str, wanted: str) -> str:
+    if {offered, wanted} != {*VELOCITY_TYPES}:
+        return f'use {wanted} in {names_of(publishers)}, or remap it: -r {topic}:={topic}_2'
+    is_stamped = wanted == STAMPED_TWIST
+    value = str(is_stamped).lower()
+    command = f"ros2 topic pub -r 10 {topic} {wanted} '{_forward(is_stamped)}'"
+    return (
+        f'publish {short_type(wanted, offered)}: teleop_twist_keyboard -p stamped:={value}, '
+        f'Nav2 enable_stamped_cmd_vel: {value}, {command}'
+    )
+
+
+def _forward(is_stamped: bool) -> str:
+    twist = '{linear: {x: 0.2}}'
+    return f'{{twist: {twist}}}' if is_stamped else twist
 
 
 def duplicate_node_names(seen: Observations) -> Iterator[Finding]:

@@ -15,7 +15,6 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 ``screen.py``               … these rays, as a grid
 ``surfaces.py``             … the surfaces of simple shapes, as arrays of depths
 ``shading.py``              the colours of what rays hit: light
-``shadows.py``              … shadows of one light
 ``textures.py``             … and textures
 ``pictures.py``             what messages are made of them: noise, JPEGs, clouds of points
 ``lens.py``                 where a point is in the picture, and where a pixel looks: K, distortion

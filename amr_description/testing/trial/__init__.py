@@ -9,7 +9,6 @@ three seconds, its controllers brought up, driven and moved, and compared with t
 ==================== ==============================================================================
 ``command.py``       the options, the robots one after the other, the table and the exit code
 ``inputs.py``        descriptions of a folder; the parameter file of a robot; texts replaced
-``robot_process.py`` one robot in a process with a time limit
 
 ``one_robot.py``     what is done with a robot, in order
 ``bring_up.py``      its controllers, each as far as it goes

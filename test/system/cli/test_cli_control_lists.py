@@ -11,8 +11,7 @@ from lifecycle_msgs.msg import State
 import pytest
 from support.manager_host import ros_in_this_process, running_host
 
-from amr_description.cli.control.chains import dot, tree
-from amr_description.cli.control.listing import component_lines, interface_lines
+from amr_description.cli.control.listing import component_lines, dot, interface_lines, tree
 
 RECORDED = json.loads((HERE / 'control_outputs.json').read_text())
 """verb -> the lines that the original prints, with the tutorial's robot over mock hardware."""

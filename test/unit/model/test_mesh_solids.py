@@ -10,12 +10,12 @@ import pytest
 from support.mesh_files import box, FACES
 
 from amr_description.errors import MeshError
-from amr_description.model.convex_hull import hull_volume
 from amr_description.model.frames import Transform
 from amr_description.model.mesh_solids import (
     count_edges,
     Edges,
     hull_ratio,
+    hull_volume,
     joined,
     solid_mesh,
     solid_primitive,

@@ -9,7 +9,7 @@ import sys
 import pytest
 from support.paths import ROOT
 
-from amr_description.workspace.cmake_stubs import compiles_nothing, write_stub
+from amr_description.workspace.cmake import compiles_nothing, write_stub
 
 LACKS = """\
 CMake Error at CMakeLists.txt:{line} (find_package):

@@ -8,7 +8,6 @@ module               what it holds
 ===================  =============================================================================
 ``collector.py``     subscriptions with the QoS of Nav2 and slam_toolbox, until enough has come
 ``graph.py``         endpoints of topics; parameters of all nodes
-``lookups.py``       when the transform at each scan's stamp became known
 ``driving.py``       commands to the robot, and what odometry says of them
 ===================  =============================================================================
 """

@@ -16,7 +16,8 @@ topic           QoS, and whose it is
 Depths are larger than theirs where messages are counted, so that a busy machine loses none.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 import time
 from typing import Any, TypeAlias
 
@@ -31,7 +32,7 @@ from tf2_msgs.msg import TFMessage
 
 from amr_description.ament_index import resolve_uri
 from amr_description.clock import NANOSECONDS
-from amr_description.errors import AmrError, DescriptionError
+from amr_description.errors import AmrError, DescriptionError, TransformException
 from amr_description.model.footprint import footprint
 from amr_description.model.frames import yaw_of
 from amr_description.model.robot import Robot
@@ -58,9 +59,51 @@ from amr_description.navigation.ros.contract.graph import (
     topic_of,
     topics_elsewhere,
 )
-from amr_description.navigation.ros.contract.lookups import with_lookups
 from amr_description.ros.messages import nanoseconds, transform_of_message
 from amr_description.ros.qos import LATCHED, TF_STATIC
+from amr_description.tf2_ros.buffer_core import BufferCore
+from amr_description.tf2_ros.time_cache import StampedTransform
+
+
+def with_lookups(
+    scans: Sequence[ScanSeen], transforms: Sequence[TransformSeen], target: str
+) -> tuple[ScanSeen, ...]:
+    """
+    Return scans with the time from each one's reception until ``target`` ← its frame was known.
+
+    It looks up exactly at the stamp, as ``tf2_ros::MessageFilter`` does: nothing is extrapolated.
+
+    Args:
+        scans: in the order of their reception.
+        transforms: all that came, in the order of their reception.
+        target: the frame that scans are transformed to.
+    """
+    buffer = BufferCore()
+    done: dict[int, ScanSeen] = {}
+    waiting: dict[int, ScanSeen] = {}
+
+    def look(place: int, scan: ScanSeen, now: int) -> None:
+        try:
+            buffer.lookup_transform(target, scan.frame, scan.stamp)
+        except TransformException as error:
+            waiting[place] = replace(scan, error=str(error))
+        else:
+            waiting.pop(place, None)
+            done[place] = replace(scan, wait=max(0, now - scan.received))
+
+    rest = list(enumerate(scans))[::-1]
+    for each in transforms:
+        while rest and rest[-1][1].received < each.received:
+            place, scan = rest.pop()
+            look(place, scan, scan.received)
+        stamped = StampedTransform(each.parent, each.child, each.stamp, each.transform)
+        buffer.set_transform(stamped, static=each.is_static)
+        for place, scan in list(waiting.items()):
+            look(place, scan, each.received)
+    for place, scan in reversed(rest):
+        look(place, scan, scan.received)
+    return tuple(scan for _, scan in sorted((done | waiting).items()))
+
 
 CLOCK_TOPIC, TF_TOPIC, TF_STATIC_TOPIC = '/clock', '/tf', '/tf_static'
 ODOM_TOPIC, SCAN_TOPIC, MAP_TOPIC = 'odom', 'scan', 'map'
