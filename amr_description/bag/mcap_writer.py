@@ -57,7 +57,7 @@ class OutputFile:
         return self._size
 
     def flush(self) -> None:
-        """Do nothing: it is done."""
+        """Nothing waits in a buffer."""
 
     def close(self) -> None:
         """Close the file."""

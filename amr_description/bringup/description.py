@@ -7,7 +7,7 @@ A value of the wrong type raises BringupError at once, with the field that it wa
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, InitVar, KW_ONLY, replace
+from dataclasses import dataclass, field, KW_ONLY, replace
 from os import PathLike
 from pathlib import Path
 from typing import Literal, TypeAlias
@@ -169,13 +169,9 @@ class Node(NodeRef):
     """Where it is started; None: where the bring-up is."""
     on_output: LineHandler | None = None
     """Called with each line of its output; as ``on_exit``, but it starts nothing."""
-    patience: InitVar[float | None] = None
-    """Alias of ``timeout``."""
 
-    def __post_init__(self, patience: float | None) -> None:
+    def __post_init__(self) -> None:
         """Raise BringupError for a field of the wrong type."""
-        if patience is not None:
-            object.__setattr__(self, 'timeout', patience)
         validation.require('Node(%s)', self.executable, validation.FILE_NAME)
         validation.require_fields(f'Node({self.executable!r}', self, _NODE_FIELDS)
         if self.timeout is not None:
@@ -228,13 +224,9 @@ class Stack(Member):
     """Logged after ``ready in … s:``: what a user would type next."""
     notes: Sequence[tuple[Level, str]] = ()
     """Logged before the first node starts; see ``notes_on``."""
-    patience: InitVar[float | None] = None
-    """Alias of ``timeout``."""
 
-    def __post_init__(self, patience: float | None) -> None:
+    def __post_init__(self) -> None:
         """Raise BringupError if the stack could not run as it is written."""
-        if patience is not None:
-            object.__setattr__(self, 'timeout', patience)
         validation.require('Stack(%s)', self.nodes, _MEMBERS)
         validation.require_fields('Stack(…', self, _STACK_FIELDS)
         nodes = list(nodes_of(self.nodes))

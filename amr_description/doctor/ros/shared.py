@@ -25,7 +25,7 @@ from amr_description.ros.service_calls import ServiceReadiness
 CLOCK_TOPIC = '/clock'
 
 _DEPTH = 200
-"""Ticks between two looks."""
+"""Ticks between two queries of the graph."""
 _MOST_TICKS = 20_000
 _SHARED: 'WeakKeyDictionary[Node, Shared]' = WeakKeyDictionary()
 

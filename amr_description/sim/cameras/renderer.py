@@ -57,4 +57,4 @@ class Renderer(ABC):
         """Make one picture. Raises RenderingError: this renderer cannot."""
 
     def close(self) -> None:
-        """Let go of everything."""
+        """Release contexts and buffers."""

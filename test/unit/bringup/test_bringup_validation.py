@@ -123,15 +123,6 @@ def test_a_wrong_parameter_is_reported_with_its_node(tmp_path, monkeypatch, tabl
         process_specs(Stack([Node('step', package='toys', parameters=[table])]), tmp_path)
 
 
-def test_patience_is_an_alias_of_timeout():
-    assert Node('arm', patience=5).timeout == 5
-    assert Stack([NODE], patience=math.inf).timeout == math.inf
-    with pytest.raises(BringupError, match=r"Node\('arm', timeout='5'\): it takes a number"):
-        Node('arm', patience='5')
-    with pytest.raises(BringupError, match='timeout=0: it takes more than 0 s'):
-        Stack([NODE], patience=0)
-
-
 def test_all_valid_kinds_of_values_are_accepted(tmp_path):
     Node(
         'arm',
