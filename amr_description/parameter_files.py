@@ -23,6 +23,7 @@ it.
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 import math
 from pathlib import Path
 import re
@@ -216,9 +217,13 @@ class _SourceLoader(_Loader):
 _Loader.add_constructor(_PLAIN, lambda _, node: scalar_of(node.value))
 
 
+@lru_cache(maxsize=4)
 def compose(text: str) -> yaml.Node | None:
     """
     Return the tree of a parameter file; tables of one key that stands twice are joined.
+
+    It is for reading. The latest are kept: the start of a robot asks ten times for one file, and
+    to parse that takes milliseconds.
 
     So rcl reads it: ``/**:`` may stand above every node of a file, and each counts. PyYAML would
     keep the last one.

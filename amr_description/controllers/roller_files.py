@@ -10,7 +10,6 @@ rollers, whether or not the description tells of them.
 from collections.abc import Iterator, Sequence
 import math
 
-from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
 from amr_description.controllers.parameter_faults import controller_parameters
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ParameterError
@@ -56,6 +55,8 @@ def mecanum_rollers(joints: Sequence[str]) -> dict[str, Rollers]:
 
 def _rollers(kind: str, values: dict[str, object]) -> Iterator[tuple[str, Rollers]]:
     if kind == MECANUM_DRIVE:
+        from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
+
         yield from mecanum_rollers(build(MecanumDriveParameters, values).command_joints).items()
     else:
         names = values.get('wheel_names')

@@ -8,22 +8,18 @@ from running: the robot goes elsewhere than its odometry. Everything here is a w
 of the parameter. Drives with joints that the robot lacks are left out.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from amr_description.control.contracts import null_log
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
-from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
-from amr_description.controllers.omni_wheel_drive_controller import OmniWheelDriveParameters
 from amr_description.controllers.parameter_faults import (
     controller_parameters,
     ControllerParameters,
 )
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
-from amr_description.controllers.steering_parameters import SteeringParameters
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.model.axles import vector_text
 from amr_description.model.findings import Finding, Severity
@@ -37,6 +33,12 @@ from amr_description.model.wheels import find_wheels
 from amr_description.model.xml_reader import parse_xml
 from amr_description.parameters import build
 from amr_description.text import quote
+
+if TYPE_CHECKING:  # a robot has one of these drives, and is not to wait for the others
+    from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+    from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
+    from amr_description.controllers.omni_wheel_drive_controller import OmniWheelDriveParameters
+    from amr_description.controllers.steering_parameters import SteeringParameters
 
 _TOLERANCE = 0.02
 """Of a size, as for differential drives."""
@@ -179,16 +181,11 @@ class _Drive:
 
 
 def _check_of(table: type) -> Callable[[_Drive, Any], Iterator[Finding]] | None:
-    if table is MecanumDriveParameters:
-        return _check_mecanum
-    if table is OmniWheelDriveParameters:
-        return _check_omni
-    if table is DiffDriveParameters:
-        return _check_rollers
-    return _check_steering if issubclass(table, SteeringParameters) else None
+    names = (f'{each.__module__}:{each.__name__}' for each in table.__mro__)
+    return next((_CHECKS[name] for name in names if name in _CHECKS), None)
 
 
-def _check_mecanum(drive: _Drive, parameters: MecanumDriveParameters) -> Iterator[Finding]:
+def _check_mecanum(drive: _Drive, parameters: 'MecanumDriveParameters') -> Iterator[Finding]:
     joints = parameters.command_joints
     if not drive.has(joints):
         return
@@ -217,7 +214,7 @@ def _check_mecanum(drive: _Drive, parameters: MecanumDriveParameters) -> Iterato
     yield from drive.axles(mounts, [f'{name}_command_joint_name' for name in _CORNERS])
 
 
-def _check_omni(drive: _Drive, parameters: OmniWheelDriveParameters) -> Iterator[Finding]:
+def _check_omni(drive: _Drive, parameters: 'OmniWheelDriveParameters') -> Iterator[Finding]:
     joints = parameters.wheel_names
     if not drive.has(joints):
         return
@@ -247,7 +244,7 @@ def _check_omni(drive: _Drive, parameters: OmniWheelDriveParameters) -> Iterator
             )
 
 
-def _check_rollers(drive: _Drive, parameters: DiffDriveParameters) -> Iterator[Finding]:
+def _check_rollers(drive: _Drive, parameters: 'DiffDriveParameters') -> Iterator[Finding]:
     """A differential drive on mecanum wheels turns as these do."""
     joints = (*parameters.left_wheel_names, *parameters.right_wheel_names)
     if not drive.has(joints):
@@ -272,7 +269,7 @@ def _check_rollers(drive: _Drive, parameters: DiffDriveParameters) -> Iterator[F
         )
 
 
-def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[Finding]:
+def _check_steering(drive: _Drive, parameters: 'SteeringParameters') -> Iterator[Finding]:
     parameters = parameters.modernized(null_log)
     traction, steering = parameters.traction_joints_names, parameters.steering_joints_names
     if not (traction and steering and drive.has((*traction, *steering))):
@@ -303,7 +300,7 @@ def _check_steering(drive: _Drive, parameters: SteeringParameters) -> Iterator[F
 def _check_pair(
     drive: _Drive,
     mounts: Sequence[_WheelMount],
-    parameters: SteeringParameters,
+    parameters: 'SteeringParameters',
     kind: str,
     names: Sequence[str],
 ) -> Iterator[Finding]:
@@ -362,3 +359,13 @@ def _mean(mounts: Sequence[_WheelMount]) -> float:
 
 def _sign(value: int) -> str:
     return '> 0' if value > 0 else '< 0'
+
+
+_CONTROLLERS = 'amr_description.controllers'
+_CHECKS: Mapping[str, Callable[[_Drive, Any], Iterator[Finding]]] = {
+    f'{_CONTROLLERS}.diff_drive_parameters:DiffDriveParameters': _check_rollers,
+    f'{_CONTROLLERS}.mecanum_drive_parameters:MecanumDriveParameters': _check_mecanum,
+    f'{_CONTROLLERS}.omni_wheel_drive_controller:OmniWheelDriveParameters': _check_omni,
+    f'{_CONTROLLERS}.steering_parameters:SteeringParameters': _check_steering,
+}
+"""By the table of parameters, or one that it extends."""

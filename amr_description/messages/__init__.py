@@ -7,5 +7,6 @@ Messages of ROS as plain data, without the packages that ROS has for them.
 ``definitions.py`` what the messages are that controllers and sensors use; ``definitions.txt``
 ``plain.py``       messages as objects: of defaults, and of what a dict says
 ``readers.py``     messages → samples of controllers
+``sent.py``        what is sent to a controller without ROS → samples
 ================== ================================================================================
 """

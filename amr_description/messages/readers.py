@@ -7,7 +7,6 @@ They read attributes only, so that a message may be of rclpy, or a plain one.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any, TypeVar
 
 from amr_description.clock import NANOSECONDS
@@ -24,7 +23,6 @@ from amr_description.control.trajectory_samples import (
     TrajectorySample,
 )
 from amr_description.errors import ControllerError
-from amr_description.messages.plain import has_stamp, message_of
 from amr_description.registry import resolve
 
 Function = TypeVar('Function')
@@ -182,28 +180,6 @@ def reader_of(port: Port) -> Callable[[Any], Any]:
         found: Callable[[Any], Any] = resolve(port.convert)
         return found
     return find(READERS, port)
-
-
-def sample_of(port: Port, message: Any, time: int) -> Any:
-    """
-    Return the sample of what was sent to an input; one without a stamp gets the time.
-
-    Args:
-        port: Of the input.
-        message: A sample already, or a mapping in the form of the message.
-        time: Present time, ns.
-
-    Raises:
-        AmrError: A value does not fit, or there is no converter.
-    """
-    if not isinstance(message, Mapping):
-        is_without = has_stamp(port.message) and getattr(message, 'stamp', None) == 0
-        return replace(message, stamp=time) if is_without else message
-    made = message_of(port.message, message)
-    stamp = getattr(getattr(made, 'header', None), 'stamp', None)
-    if stamp is not None and stamp.sec == stamp.nanosec == 0:
-        stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
-    return reader_of(port)(made)
 
 
 def find(table: Mapping[Key, Function], port: Port) -> Function:

@@ -10,7 +10,6 @@ of them understand; also for ``package://`` of a package that is not installed, 
 file lies in.
 """
 
-from html import unescape
 from pathlib import Path
 import re
 from urllib.parse import quote
@@ -39,6 +38,8 @@ def with_absolute_paths(text: str, folder: Path) -> str:
 
     def absolute(match: re.Match[str]) -> str:
         before, quoted = match.groups()
+        from html import unescape  # for the few robots that have meshes
+
         path = unescape(quoted[1:-1]).strip()
         if not path or path.startswith(('/', '~', '$', 'file:///')):
             return match[0]

@@ -24,7 +24,6 @@ import math
 from typing import Self, TypeAlias
 
 import mujoco
-from mujoco.batch import Batch
 import numpy as np
 from numpy.typing import NDArray
 
@@ -129,6 +128,8 @@ class RayScene:
         Args:
             mask: Which geoms are met.
         """
+        from mujoco.batch import Batch  # a fiftieth of a start; few sensors have a use for it
+
         self.model.geom_group[:] = mask
         try:
             batch = Batch(self.model, nsim=1, nthread=1)  # it copies the model

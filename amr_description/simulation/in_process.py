@@ -24,7 +24,7 @@ from amr_description.control.contracts import Input, Severity
 from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError
-from amr_description.messages.readers import sample_of
+from amr_description.messages.sent import sample_of
 from amr_description.model.controller_files import declared_controllers
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.gazebo_builder import GazeboTranslation

@@ -30,13 +30,13 @@ MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it.
 BUDGETS = {
-    'modules': 799,
-    'code lines': 88_404,
+    'modules': 800,  # sent.py: the engine starts without the samples of all controllers
+    'code lines': 88_408,
     'small modules of one importer beside them': 43,
     'class names used twice': 103,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_146,
+    'code lines of helpers in test files': 25_138,
 }
 
 BASE = {
