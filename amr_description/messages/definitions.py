@@ -3,8 +3,9 @@
 """
 What the messages consist of that controllers and sensors use.
 
-``definitions.txt`` has their ``.msg`` files, word for word, each behind a line with its type; a
-test holds it to be that of the installed packages.
+``definitions.txt`` has their ``.msg`` files, word for word, each behind a line with its type and
+the hash of that; a test holds it to be that of the installed packages. Parts of services and
+actions are there likewise, without a hash.
 """
 
 from collections.abc import Mapping
@@ -16,8 +17,10 @@ from typing import Any
 
 import yaml
 
-_FILE = Path(__file__).with_name('definitions.txt')
-_MARK = re.compile(r'^=== (\S+)\n', re.MULTILINE)
+from amr_description.cdr.layouts import CODES, Group, group, Layout, many, Number, Text
+
+FILE = Path(__file__).with_name('definitions.txt')
+_MARK = re.compile(r'^=== (\S+)(?: (\S+))?\n', re.MULTILINE)
 _FIELD = re.compile(
     r'(?P<type>[A-Za-z][\w/]*)(?:<=\d+)?(?P<array>\[(?:<=)?\d*\])?\s+(?P<name>[a-z]\w*)'
     r'(?:\s+(?P<default>[^\s=].*))?'
@@ -29,6 +32,8 @@ NUMBERS: Mapping[str, type] = {
     **dict.fromkeys(('int64', 'uint64'), int),
 }
 """What a number of these types is in Python."""
+_NAMES = {'bool': 'boolean', 'byte': 'octet', 'float32': 'float', 'float64': 'double'}
+"""What :data:`CODES` calls these types."""
 TEXTS = ('string', 'wstring')
 
 
@@ -49,8 +54,15 @@ class Field:
 @cache
 def texts() -> dict[str, str]:
     """Return all definitions, by the names of their types."""
-    _, *parts = _MARK.split(_FILE.read_text(encoding='utf-8'))
-    return dict(zip(parts[::2], parts[1::2], strict=True))
+    _, *parts = _MARK.split(FILE.read_text(encoding='utf-8'))
+    return dict(zip(parts[::3], parts[2::3], strict=True))
+
+
+@cache
+def hashes() -> dict[str, str]:
+    """Return the hashes of all types, ``RIHS01_…``, by their names."""
+    found = _MARK.findall(FILE.read_text(encoding='utf-8'))
+    return {name: value for name, value in found if value}
 
 
 @cache
@@ -62,12 +74,30 @@ def fields_of(name: str) -> tuple[Field, ...]:
     return tuple(_field(match, package) for match in found if match)
 
 
+@cache
+def layout_of(name: str) -> Group:
+    """Return how a message is laid out; raises KeyError: its type is not here."""
+    return group(name, [(each.name, _layout(each)) for each in fields_of(name)])
+
+
+def _layout(field: Field) -> Layout:
+    element: Layout
+    if field.type in NUMBERS:
+        name = _NAMES.get(field.type, field.type)
+        element = Number(CODES[name], name)
+    elif field.type in TEXTS:
+        element = Text() if field.type == 'string' else Text(width=4)
+    else:
+        element = layout_of(field.type)
+    return many(element, field.count) if field.is_array else element
+
+
 def _field(match: re.Match[str], package: str) -> Field:
     kind, array = match['type'], match['array']
     if kind == 'Header':
         kind = 'std_msgs/msg/Header'
     elif kind not in NUMBERS and kind not in TEXTS:
         kind = kind.replace('/', '/msg/') if '/' in kind else f'{package}/msg/{kind}'
-    count = array and array.strip('[<=]')
+    count = array[1:-1] if array and '<' not in array else ''
     default = None if match['default'] is None else yaml.safe_load(match['default'])
     return Field(match['name'], kind, int(count) if count else None, array is not None, default)

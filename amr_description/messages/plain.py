@@ -9,6 +9,7 @@ the field.
 """
 
 from collections.abc import Mapping, Sequence
+import importlib
 from typing import Any
 
 from amr_description.errors import AmrError
@@ -56,6 +57,25 @@ def message_of(type_name: str, values: Mapping[str, Any]) -> Any:
     if type_name not in texts():
         return Unknown(values)
     return _filled(type_name, values, '')
+
+
+def message_like(message: Any, type_name: str, **values: Any) -> Any:
+    """
+    Return a message to be put into another one: a plain one if that is plain, else of rclpy.
+
+    Args:
+        message: The other one.
+        type_name: ``package/msg/Name``.
+        **values: Of its fields.
+    """
+    if isinstance(message, PlainMessage):
+        made: Any = PlainMessage(type_name)
+    else:
+        package, kind, name = type_name.split('/')
+        made = getattr(importlib.import_module(f'{package}.{kind}'), name)()
+    for name, value in values.items():
+        setattr(made, name, value)
+    return made
 
 
 def has_stamp(type_name: str) -> bool:

@@ -39,11 +39,9 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``cdr_sensors.py``        … those of sensors, whose arrays are not copied
 ``cdr_navigation.py``     … maps and paths
 ``cdr_types.py``          … of any type: how they are laid out
-``cdr_cursor.py``         … a place in one, which goes on from part to part
 ``cdr_fields.py``         … some numbers of them, by their paths
 ``cdr_tree.py``           … or all of one, shortened, as JSON has it
-``cdr_template.py``       … and made without making messages: by a template
-``cdr_writer.py``         … likewise, field by field
+``cdr_template.py``       … and made without making messages: by a template (``cdr/``)
 ``cdr_padding.py``        … so that equal messages have equal bytes
 ========================= =========================================================================
 """

@@ -16,9 +16,10 @@ import re
 import struct
 from typing import Any, TypeAlias
 
+from amr_description.cdr.cursor import BEGIN, Cursor, ORDERS
+from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
 from amr_description.errors import AmrError
-from amr_description.ros.cdr_cursor import BEGIN, Cursor, ORDERS
-from amr_description.ros.cdr_types import Group, Layout, layout_of, Many, Number, Text
+from amr_description.ros.cdr_types import layout_of
 from amr_description.text import did_you_mean, shorten
 
 NOT_THERE = float('nan')

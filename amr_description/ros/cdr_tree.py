@@ -19,8 +19,8 @@ import math
 import struct
 from typing import Any
 
-from amr_description.ros.cdr_cursor import BEGIN, Cursor, ORDERS
-from amr_description.ros.cdr_types import Group, Layout, Many, Number, Text
+from amr_description.cdr.cursor import BEGIN, Cursor, ORDERS
+from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
 
 MOST_NUMBERS = 64
 """Of an array of numbers, or of strings."""

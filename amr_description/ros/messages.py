@@ -9,11 +9,16 @@ Stamps, poses, velocities and transforms to and from their ROS messages.
 from typing import TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
+from amr_description.messages.parts import (
+    fill_pose as fill_pose,
+    fill_stamp as fill_stamp,
+    fill_velocity as fill_velocity,
+)
 from amr_description.model.frames import Transform, Vector
 
 if TYPE_CHECKING:  # geometry_msgs takes its time to import, and many need stamps only
     from builtin_interfaces.msg import Time
-    from geometry_msgs.msg import Accel, Pose, Transform as TransformMessage, Twist, Vector3
+    from geometry_msgs.msg import Pose, Transform as TransformMessage, Vector3
 
 
 def nanoseconds(stamp: 'Time') -> int:
@@ -30,24 +35,6 @@ def stamp_fault(stamp: 'Time') -> str:
     if stamp.sec >= 0 and stamp.nanosec < NANOSECONDS:
         return ''
     return f'its stamp, {stamp.sec} s and {stamp.nanosec} ns, is no time'
-
-
-def fill_stamp(time: int, stamp: 'Time') -> None:
-    """Write integer nanoseconds into a stamp."""
-    stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
-
-
-def fill_pose(transform: Transform, pose: 'Pose') -> None:
-    """Write a pose: the transform from the thing to its frame of reference."""
-    position, orientation = pose.position, pose.orientation
-    position.x, position.y, position.z = transform.translation
-    orientation.x, orientation.y, orientation.z, orientation.w = transform.rotation
-
-
-def fill_velocity(linear: Vector, angular: Vector, twist: 'Twist | Accel') -> None:
-    """Write a velocity, m/s and rad/s, or an acceleration, m/s² and rad/s²."""
-    twist.linear.x, twist.linear.y, twist.linear.z = linear
-    twist.angular.x, twist.angular.y, twist.angular.z = angular
 
 
 def vector_of(vector: 'Vector3') -> Vector:

@@ -53,13 +53,14 @@ ARROWS = {
     'control': {'model'},
     'controllers': {'control', 'model'},
     'hardware': {'control', 'model'},
-    'messages': {'control'},
+    'cdr': set(),  # messages as bytes
+    'messages': {'cdr', 'control', 'model'},
     'controller_manager': {'controllers', 'hardware', 'control', 'model'},
     'maps': set(),
     'sim': {'control', 'model', 'maps'},  # the map of a world
     'viewer': {'model'},
     'navigation': {'model', 'maps'},
-    'ros': {'control', 'model'},
+    'ros': {'cdr', 'messages', 'control', 'model'},
     'bag': set(),
     'bag/ros': {'bag', 'ros'},
     'tf2_ros': {'ros', 'model', 'sensor_msgs_py'},  # of clouds
@@ -77,12 +78,22 @@ ARROWS = {
         'control',
         'model',
     },  # fmt: skip
-    'control/ros': {'ros', 'messages', 'controller_manager', 'control', 'controllers', 'model'},
+    'control/ros': {
+        'ros',
+        'cdr',
+        'messages',
+        'controller_manager',
+        'control',
+        'controllers',
+        'model',
+    },  # fmt: skip
     'sim/ros': {
         'bag',  # it records in its own process, without loss
         'bag/ros',
         'control/ros',
         'ros',
+        'cdr',
+        'messages',
         'simulation',
         'sim',
         'control',
@@ -93,6 +104,7 @@ ARROWS = {
         'bag/ros',
         'viewer',
         'ros',
+        'cdr',
         'model',
         'doctor',
         'doctor/ros',
@@ -152,8 +164,8 @@ ROS = {
 }  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
 PURE = {
-    'base', 'model', 'control', 'controllers', 'controller_manager', 'messages', 'navigation',
-    'maps', 'bag', 'doctor',
+    'base', 'cdr', 'model', 'control', 'controllers', 'controller_manager', 'messages',
+    'navigation', 'maps', 'bag', 'doctor',
 }  # fmt: skip
 # Heavy libraries have one home each.
 HOMES = {

@@ -20,11 +20,7 @@ of each controller that subscribes to something takes its messages.
 ``node_parameters.py``         parameters of managers and controllers, in their nodes
 ``plugin_nodes.py``            the nodes of controllers and hardware components
 ``port_servers.py``            their services and actions
-``converters.py``              samples of controllers ↔ messages
-``dof_converters.py``          … of PID controllers and grippers
-``sensor_converters.py``       … of the broadcasters of sensors, batteries, GPIOs
-``trajectory_converters.py``   … those of joint trajectories
-``encoders.py``                … as bytes, for what is published in every cycle
+``encoders.py``                makes bytes of their samples, as rclpy would
 ``services.py``                its services: requests in, responses out
 ``status_topics.py``           activity, diagnostics, introspection
 

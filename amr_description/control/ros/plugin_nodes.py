@@ -36,11 +36,11 @@ from amr_description.control.ros.node_parameters import NodeParameters
 from amr_description.control.ros.port_servers import (
     GoalServer,
     ServiceServer,
-    writer_of,
 )
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.errors import AmrError
 from amr_description.messages.readers import reader_of
+from amr_description.messages.writers import writer_of
 from amr_description.model.robot import Robot
 from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.cdr_padding import serialize

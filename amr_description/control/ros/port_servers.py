@@ -8,7 +8,6 @@ between two cycles. Of a goal it writes attributes, which a timer looks at while
 as the original's real-time goal handles are looked at.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
@@ -23,7 +22,7 @@ from amr_description.control.contracts import Action, Goal, GoalStatus, Port, Se
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.messages.readers import reader_of
-from amr_description.registry import resolve
+from amr_description.messages.writers import writer_of
 from amr_description.ros.message_types import action_type, service_type
 from amr_description.ros.rclpy_internals import begin_goal, end_goal
 from amr_description.ros.standing_clock import StandingClockNode
@@ -194,15 +193,6 @@ class GoalServer:
                 self._fill_result(result, message)
         finally:
             end_goal(self._server, handle, _EVENTS[status], message)
-
-
-def writer_of(port: Port) -> Callable[[Any, Any], None]:
-    """Return ``(sample, message) -> None``. Raises whatever finding it raises."""
-    if port.convert:
-        return resolve(port.convert)
-    from amr_description.control.ros import converters
-
-    return converters.writer_of(port)
 
 
 def _part(name: str, message: str, converter: type | str) -> Port:

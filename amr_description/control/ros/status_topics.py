@@ -31,6 +31,7 @@ from rclpy.qos import QoSProfile
 from rclpy.time import ClockType
 from std_msgs.msg import Header
 
+from amr_description.cdr.template import Template
 from amr_description.clock import NANOSECONDS
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.diagnostics import HARDWARE_ID, Report, reports, take_measurements
@@ -39,13 +40,13 @@ from amr_description.control.introspection import (
     IntrospectionRegistry,
     statistics_of,
 )
-from amr_description.control.ros.encoders import Encoding, filling, TemplateEncoder
+from amr_description.control.ros.encoders import RosForm
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext, LoopThread
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
 from amr_description.controller_manager.parameters import ManagerParameters
-from amr_description.ros.cdr_template import Template
-from amr_description.ros.messages import fill_stamp
+from amr_description.messages.encoders import Encoding, filling, TemplateEncoder
+from amr_description.messages.parts import fill_stamp
 from amr_description.ros.qos import LATCHED
 
 _QUEUED = QoSProfile(depth=10)
@@ -176,7 +177,7 @@ class RegistryTopics:
         ).send
         self._send_values = loop_publisher.topic(
             self._values,
-            TemplateEncoder(VALUES, fill_values, StatisticsValues),
+            TemplateEncoder(VALUES, fill_values, RosForm(StatisticsValues)),
             is_recorded=False,
         ).send
         self._full_names: tuple[str, ...] = ()

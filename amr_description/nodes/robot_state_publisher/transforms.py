@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage
 
+from amr_description.cdr.template import Template
 from amr_description.clock import NANOSECONDS
 from amr_description.nodes.robot_state_publisher.robot_state import LinkTransform
-from amr_description.ros.cdr_template import Template, template_of
+from amr_description.ros.cdr_template import is_that_of, template_of
 from amr_description.ros.messages import fill_stamp
 
 _CHANGING = ('transforms.header.stamp', 'transforms.transform')
@@ -49,7 +50,7 @@ class TransformEncoder:
     def _template(self, links: Sequence[LinkTransform], stamp: int) -> Template | None:
         message = self.message(links, stamp)
         template = template_of(message, _CHANGING)
-        is_right = template.has_made(_pack(template, links, stamp), message)
+        is_right = is_that_of(message, _pack(template, links, stamp), template)
         return template if is_right else None
 
     def _transform(self, link: LinkTransform, stamp: int) -> TransformStamped:

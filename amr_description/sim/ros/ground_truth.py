@@ -30,7 +30,6 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.ros.converters import fill_body_odometry, fill_dynamic_joint_state
 from amr_description.control.ros.encoders import encoder_of
 from amr_description.control.ros.loop_publisher import LoopPublisher, LoopTopic
 from amr_description.control.samples import (
@@ -39,6 +38,7 @@ from amr_description.control.samples import (
     DynamicLayout,
     Frames,
 )
+from amr_description.messages.writers import fill_body_odometry, fill_dynamic_joint_state
 from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_view import RobotView

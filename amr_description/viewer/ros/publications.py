@@ -14,8 +14,9 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
+from amr_description.cdr.layouts import Group, Layout, Many, Text
 from amr_description.errors import ViewerError
-from amr_description.ros.cdr_types import Group, Layout, layout_of, Many, Text
+from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import fill_stamp

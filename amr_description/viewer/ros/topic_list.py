@@ -12,8 +12,9 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
+from amr_description.cdr.layouts import Layout, Many, Number
 from amr_description.errors import AmrError
-from amr_description.ros.cdr_types import Layout, layout_of, Many, Number
+from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.rclpy_internals import RCLError

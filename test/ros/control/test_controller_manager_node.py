@@ -20,10 +20,10 @@ from support.manager_host import Host, PERIOD, ros_in_this_process, running_host
 from support.paths import TESTS
 from support.running_programs import PATIENCE
 
-from amr_description.control.ros.encoders import filling
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.errors import ParameterError
+from amr_description.messages.encoders import filling
 from amr_description.ros.service_calls import call, wait_until
 
 FIXTURES = TESTS / 'fixtures' / 'nodes'

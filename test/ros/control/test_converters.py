@@ -18,7 +18,6 @@ from std_msgs.msg import Float64MultiArray
 from support.control_fakes import FakeLog
 
 from amr_description.control.contracts import ControllerContext, Port
-from amr_description.control.ros import converters
 from amr_description.control.samples import (
     CommandsSample,
     DynamicJointStateSample,
@@ -34,7 +33,7 @@ from amr_description.control.samples import (
 )
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
-from amr_description.messages import readers
+from amr_description.messages import readers, writers
 from amr_description.parameters import build
 from amr_description.ros.message_types import message_type
 
@@ -54,7 +53,7 @@ def dynamic(values, layout=LAYOUT, stamp=STAMP):
 def test_joint_states_arrive_as_they_were():
     message = JointState()
     sample = JointStateSample(STAMP, 'base', ('a', 'b'), (1.0, 2.0), (3.0, math.nan), (5.0, 6.0))
-    converters.fill_joint_state(sample, message)
+    writers.fill_joint_state(sample, message)
     arrived = sent(message)
     assert (arrived.header.stamp.sec, arrived.header.stamp.nanosec) == (3, 7)
     assert arrived.header.frame_id == 'base'
@@ -70,13 +69,13 @@ def test_joint_names_that_change_are_written_again():
     for name in (('a', 'b'), ('b', 'a')):
         zeros = (0.0, 0.0)
         sample = JointStateSample(STAMP, 'base', name, zeros, zeros, zeros)
-        converters.fill_joint_state(sample, message)
+        writers.fill_joint_state(sample, message)
         assert sent(message).name == list(name)
 
 
 def test_dynamic_joint_states_arrive_as_they_were():
     message = DynamicJointState()
-    converters.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
+    writers.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
     arrived = sent(message)
     assert (arrived.header.stamp.sec, arrived.header.frame_id) == (3, 'base')
     assert arrived.joint_names == ['wheel', 'imu']
@@ -89,9 +88,9 @@ def test_dynamic_joint_states_arrive_as_they_were():
 
 def test_only_values_and_stamp_of_a_dynamic_joint_state_are_written_again():
     message = DynamicJointState()
-    converters.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
+    writers.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
     rows = message.interface_values
-    converters.fill_dynamic_joint_state(dynamic(((4.0, 5.0), (6.0,)), stamp=0), message)
+    writers.fill_dynamic_joint_state(dynamic(((4.0, 5.0), (6.0,)), stamp=0), message)
     assert message.interface_values is rows
     arrived = sent(message)
     assert [list(row.values) for row in arrived.interface_values] == [[4.0, 5.0], [6.0]]
@@ -100,10 +99,10 @@ def test_only_values_and_stamp_of_a_dynamic_joint_state_are_written_again():
 
 def test_other_interfaces_of_the_same_joints_are_written_again():
     message = DynamicJointState()
-    converters.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
+    writers.fill_dynamic_joint_state(dynamic(((1.0, 2.0), (3.0,))), message)
     names = ('wheel', 'imu')
     other = DynamicLayout('map', tuple(list(names)), (('effort',), ('gyro.x', 'gyro.y')))
-    converters.fill_dynamic_joint_state(dynamic(((1.0,), (3.0, 4.0)), other), message)
+    writers.fill_dynamic_joint_state(dynamic(((1.0,), (3.0, 4.0)), other), message)
     arrived = sent(message)
     assert arrived.header.frame_id == 'map'
     assert [row.interface_names for row in arrived.interface_values] == [
@@ -125,7 +124,7 @@ def test_an_imu_message_arrives_as_it_was():
         sample = ImuSample(
             stamp, (0.1, 0.2, 0.3, 0.4), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), constants
         )
-        converters.fill_imu(sample, message)
+        writers.fill_imu(sample, message)
     arrived = sent(message)
     assert (arrived.header.stamp.sec, arrived.header.frame_id) == (3, 'imu_link')
     orientation = arrived.orientation
@@ -146,18 +145,18 @@ def test_a_twist_and_odometry_have_their_part_to_the_left():
     sample = readers.twist_sample(sent(message))
     assert sample == TwistSample(0, 1.0, 3.0, '', 2.0)
     again = TwistStamped()
-    converters.fill_twist(sample, again)
+    writers.fill_twist(sample, again)
     assert again == message
     frames = Frames('odom', 'base', (0.0,) * 6, (0.0,) * 6)
     odometry = Odometry()
-    converters.fill_odometry(OdometrySample(0, 1, 2, 0, 3.0, 4.0, frames, 5.0), odometry)
+    writers.fill_odometry(OdometrySample(0, 1, 2, 0, 3.0, 4.0, frames, 5.0), odometry)
     assert sent(odometry).twist.twist.linear.y == 5.0
 
 
 def test_the_state_of_mecanum_wheels_names_each_wheel():
     message = MecanumDriveControllerState()
     sample = MecanumStateSample(STAMP, 'odom', (1.0, 2.0, 3.0, 4.0), (0.1, 0.2, 0.3))
-    converters.fill_mecanum_state(sample, message)
+    writers.fill_mecanum_state(sample, message)
     arrived = sent(message)
     assert (arrived.header.stamp.sec, arrived.header.frame_id) == (3, 'odom')
     assert arrived.front_left_wheel_velocity == 1.0
@@ -171,7 +170,7 @@ def test_the_state_of_mecanum_wheels_names_each_wheel():
 def test_the_state_of_steered_wheels_arrives_as_it_was():
     message = SteeringControllerStatus()
     sample = SteeringStateSample(STAMP, 'odom', (), (1.0, 2.0), (0.1, 0.2), (3.0, 4.0), (0.3, 0.4))
-    converters.fill_steering_state(sample, message)
+    writers.fill_steering_state(sample, message)
     arrived = sent(message)
     assert (arrived.header.stamp.nanosec, arrived.header.frame_id) == (7, 'odom')
     assert list(arrived.traction_wheels_position) == []
@@ -230,7 +229,7 @@ def test_the_converters_of_every_port_exist(controller, values):
     made.configure(build(found.parameters_type, values))
     functions = [
         *((readers.reader_of(each.port), each.port) for each in made.inputs()),
-        *((converters.writer_of(each.port), each.port) for each in made.outputs()),
+        *((writers.writer_of(each.port), each.port) for each in made.outputs()),
     ]
     assert functions
     for function, port in functions:
@@ -242,7 +241,7 @@ def test_the_converters_of_every_port_exist(controller, values):
     ('find', 'port', 'sample'),
     [
         (readers.reader_of, Port('~/in', 'sensor_msgs/msg/Imu', sample=ImuSample), 'ImuSample'),
-        (converters.writer_of, Port('~/out', 'sensor_msgs/msg/Imu'), 'no type of sample'),
+        (writers.writer_of, Port('~/out', 'sensor_msgs/msg/Imu'), 'no type of sample'),
     ],
 )
 def test_a_port_without_a_converter_is_explained(find, port, sample):
@@ -260,7 +259,7 @@ def test_any_number_of_joints_goes(count):
     values = tuple((float(i),) for i in range(count))
     message = DynamicJointState()
     layout = DynamicLayout('', names, (('position',),) * count)
-    converters.fill_dynamic_joint_state(dynamic(values, layout), message)
+    writers.fill_dynamic_joint_state(dynamic(values, layout), message)
     assert [row.values[0] for row in sent(message).interface_values] == list(range(count))
 
 

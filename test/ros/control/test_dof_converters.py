@@ -20,9 +20,8 @@ from amr_description.control.dof_samples import (
     SetBoolRequest,
     SetBoolResponse,
 )
-from amr_description.control.ros import converters
 from amr_description.controllers import CONTROLLERS
-from amr_description.messages import readers
+from amr_description.messages import readers, writers
 from amr_description.parameters import build
 
 STAMP = 3_000_000_007
@@ -30,7 +29,7 @@ STATE = GripperState('finger', 0.5, 2.0, stalled=True, reached_goal=False)
 
 
 def arrive(sample, message, kind):
-    converters.writer_of(Port('it', kind, sample=type(sample)))(sample, message)
+    writers.writer_of(Port('it', kind, sample=type(sample)))(sample, message)
     return deserialize_message(serialize_message(message), type(message))
 
 

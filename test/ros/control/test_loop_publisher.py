@@ -9,8 +9,8 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from std_msgs.msg import String
 from support.running_programs import PATIENCE
 
-from amr_description.control.ros.encoders import filling
 from amr_description.control.ros.loop_publisher import LOOK_PERIOD, LoopPublisher, TOPICS_A_LOOK
+from amr_description.messages.encoders import filling
 from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

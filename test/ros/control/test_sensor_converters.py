@@ -9,11 +9,10 @@ from support.control_fakes import collect, FakeLog
 
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import StateInterface
-from amr_description.control.ros import converters
 from amr_description.control.sensor_samples import InterfaceGroup
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.gpio_command_controller import GpioCommandController
-from amr_description.messages import readers
+from amr_description.messages import readers, writers
 from amr_description.parameters import build
 from amr_description.ros.message_types import message_type
 
@@ -92,7 +91,7 @@ def test_messages_arrive_as_they_were_sent(kind):
     for topic, (port, samples) in sent.items():
         message = message_type(port.message, 'it')()
         for _ in range(2):  # as it is reused
-            converters.writer_of(port)(samples[0], message)
+            writers.writer_of(port)(samples[0], message)
         message = deserialize_message(serialize_message(message), type(message))
         if topic in INSIDE:
             (message,) = getattr(message, INSIDE[topic])

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The definitions that are shipped, and plain messages, are those of the installed packages."""
 
+import importlib
+
 import pytest
 from support.message_definitions import text
 
 from amr_description.errors import AmrError
-from amr_description.messages.definitions import fields_of, texts
+from amr_description.messages import definitions
+from amr_description.messages.definitions import fields_of, hashes, texts
 from amr_description.messages.plain import message_of
 from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
@@ -28,15 +31,26 @@ def plain(value):
     return value
 
 
+def class_of(name):
+    """Also of the part of a service or an action."""
+    package, kind, last = name.split('/')
+    if kind == 'msg':
+        return message_type(name)
+    whole, _, part = last.rpartition('_')
+    module = importlib.import_module(f'{package}.{kind}')
+    return getattr(getattr(module, whole), part)
+
+
 def test_the_file_is_up_to_date():
     """``python test/support/message_definitions.py --write``, with test/ on PYTHONPATH."""
-    assert ''.join(f'=== {name}\n{each}' for name, each in texts().items()) == text()
+    assert definitions.FILE.read_text(encoding='utf-8') == text()
+    assert {name for name in texts() if '/msg/' in name} == hashes().keys()
 
 
 @pytest.mark.parametrize('name', texts())
 def test_a_message_of_defaults_is_that_of_ros(name):
-    assert plain(message_of(name, {})) == plain(message_type(name)())
-    assert [each.name for each in fields_of(name)] or name.endswith('Empty')
+    assert plain(message_of(name, {})) == plain(class_of(name)())
+    assert [each.name for each in fields_of(name)] or '/Empty' in name
 
 
 @pytest.mark.parametrize(

@@ -23,10 +23,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
+from amr_description.cdr.layouts import CODES
 from amr_description.errors import AmrError
 from amr_description.ros.cdr_fields import FieldReader
 from amr_description.ros.cdr_tree import MOST_NUMBERS, read_tree
-from amr_description.ros.cdr_types import CODES, layout_of
+from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.message_types import type_name
 
 _INTEGERS = {'b': 8, 'B': 8, 'h': 16, 'H': 16, 'i': 32, 'I': 32, 'q': 64, 'Q': 64}

@@ -10,7 +10,8 @@ from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState, PointField
 from std_msgs.msg import Empty, Float64MultiArray, MultiArrayDimension, MultiArrayLayout
 
-from amr_description.ros.cdr_padding import serialize, without_padding
+from amr_description.cdr.padding import without_padding
+from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.cdr_types import layout_of
 
 

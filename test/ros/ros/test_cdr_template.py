@@ -10,7 +10,7 @@ from sensor_msgs.msg import BatteryState, NavSatFix, Range
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from amr_description.ros.cdr_template import template_of
+from amr_description.ros.cdr_template import is_that_of, template_of
 
 
 def test_a_message_without_gaps_is_its_own_constant():
@@ -27,7 +27,7 @@ def test_a_message_without_gaps_is_its_own_constant():
         InterfaceValue(interface_names=['a', 'bc', ''], values=[1.0, 2.0, 3.0]),
     ):
         template = template_of(message, ())
-        assert template.has_made(template.pack(*template.constants), message)
+        assert is_that_of(message, template.pack(*template.constants), template)
 
 
 def test_gaps_are_numbers_messages_and_arrays_of_numbers():
@@ -38,7 +38,7 @@ def test_gaps_are_numbers_messages_and_arrays_of_numbers():
     data = template.pack(begin, 5, 6, frame, 0, view, 2.5, end)
     message.header.stamp.sec, message.header.stamp.nanosec = 5, 6
     message.radiation_type, message.range = 0, 2.5
-    assert template.has_made(data, message)
+    assert is_that_of(message, data, template)
 
 
 def test_each_element_of_an_array_has_a_gap():
@@ -51,13 +51,13 @@ def test_each_element_of_an_array_has_a_gap():
     ):
         place = transform.transform.translation
         place.x, place.y, place.z = values
-    assert template.has_made(data, message)
+    assert is_that_of(message, data, template)
 
 
 def test_an_empty_sequence_is_an_empty_gap():
     message = MultiDOFCommand(dof_names=['a'])
     template = template_of(message, ('values', 'values_dot'))
-    assert template.has_made(template.pack(*template.constants), message)
+    assert is_that_of(message, template.pack(*template.constants), template)
 
 
 def test_bytes_of_another_message_are_not_taken_for_its_own():
@@ -65,11 +65,11 @@ def test_bytes_of_another_message_are_not_taken_for_its_own():
     template = template_of(message, ('pose',))
     numbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
     data = template.pack(template.constants[0], *numbers, b'')
-    assert template.has_made(data, message)
-    assert not template.has_made(b'\1' + data[1:], message)
-    assert not template.has_made(data + b'\0', message)
+    assert is_that_of(message, data, template)
+    assert not is_that_of(message, b'\1' + data[1:], template)
+    assert not is_that_of(message, data + b'\0', template)
     message.pose.orientation.w = 0.0
-    assert not template.has_made(data, message)
+    assert not is_that_of(message, data, template)
 
 
 def test_text_does_not_change():

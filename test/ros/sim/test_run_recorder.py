@@ -18,9 +18,9 @@ from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
 from amr_description.bag.ros.message_cache import OVERHEAD
 from amr_description.control.contracts import Input, Port, Severity
-from amr_description.control.ros.encoders import filling
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, LoopTopic
 from amr_description.errors import BagError
+from amr_description.messages.encoders import filling
 from amr_description.ros.cdr_padding import serialize
 from amr_description.sim.ros import run_recorder
 from amr_description.sim.ros.run_recorder import RunOptions, RunRecorder

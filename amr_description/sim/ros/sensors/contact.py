@@ -16,10 +16,10 @@ import itertools
 
 from rclpy.qos import QoSProfile
 
+from amr_description.cdr.writer import Writer
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import rotate
 from amr_description.model.sensors import ContactSensor
-from amr_description.ros.cdr_writer import Writer
 from amr_description.ros.message_types import message_type
 from amr_description.sim.contact_sensor import SimulatedContacts
 from amr_description.sim.contacts import Contact

@@ -1,9 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Samples of the shipped controllers → ROS messages, and the table of these converters.
+Samples of the shipped controllers → messages of ROS, and the table of these converters.
 
-``fill_…`` writes into a message that is created once and published many times.
+``fill_…`` writes into a message that is created once and published many times. It writes
+attributes only, so that a message may be of rclpy, or a plain one.
 """
 
 from array import array
@@ -11,20 +12,7 @@ from collections.abc import Callable
 import math
 from typing import Any
 
-from control_msgs.msg import (
-    DynamicJointState,
-    InterfaceValue,
-    MecanumDriveControllerState,
-    SteeringControllerStatus,
-)
-from geometry_msgs.msg import TransformStamped, TwistStamped
-from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu, JointState
-from tf2_msgs.msg import TFMessage
-
-from amr_description.control import trajectory_samples
 from amr_description.control.contracts import Port
-from amr_description.control.ros import dof_converters, sensor_converters
 from amr_description.control.samples import (
     AckermannSample,
     BodyOdometrySample,
@@ -40,11 +28,14 @@ from amr_description.control.samples import (
     SteeringStateSample,
     TwistSample,
 )
+from amr_description.messages import dof_writers, sensor_writers, trajectory_writers
+from amr_description.messages.parts import fill_pose, fill_stamp, fill_velocity
+from amr_description.messages.plain import message_like
 from amr_description.messages.readers import find, Key
-from amr_description.ros.messages import fill_pose, fill_stamp, fill_velocity
+from amr_description.registry import resolve
 
 
-def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
+def fill_twist(sample: TwistSample, message: Any) -> None:
     """Write a planar twist."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.header.frame_id = sample.frame_id
@@ -53,7 +44,7 @@ def fill_twist(sample: TwistSample, message: TwistStamped) -> None:
     message.twist.angular.z = sample.angular
 
 
-def fill_odometry(sample: OdometrySample, message: Odometry) -> None:
+def fill_odometry(sample: OdometrySample, message: Any) -> None:
     """Write pose, twist and, the first time, frames and covariances."""
     if message.child_frame_id != sample.frames.child_frame_id:
         _fill_constants(sample.frames, message)
@@ -69,10 +60,10 @@ def fill_odometry(sample: OdometrySample, message: Odometry) -> None:
     twist.angular.z = sample.angular
 
 
-def fill_odometry_transform(sample: OdometrySample, message: TFMessage) -> None:
+def fill_odometry_transform(sample: OdometrySample, message: Any) -> None:
     """Write the transform from the base frame to the odometry frame."""
     if not message.transforms:
-        message.transforms = [TransformStamped()]
+        message.transforms = [message_like(message, 'geometry_msgs/msg/TransformStamped')]
     stamped = message.transforms[0]
     fill_stamp(sample.stamp, stamped.header.stamp)
     stamped.header.frame_id = sample.frames.frame_id
@@ -84,7 +75,7 @@ def fill_odometry_transform(sample: OdometrySample, message: TFMessage) -> None:
     transform.rotation.w = math.cos(sample.heading * 0.5)
 
 
-def fill_mecanum_state(sample: MecanumStateSample, message: MecanumDriveControllerState) -> None:
+def fill_mecanum_state(sample: MecanumStateSample, message: Any) -> None:
     """Write the wheels and the reference."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.header.frame_id = sample.frame_id
@@ -98,7 +89,7 @@ def fill_mecanum_state(sample: MecanumStateSample, message: MecanumDriveControll
     twist.linear.x, twist.linear.y, twist.angular.z = sample.reference
 
 
-def fill_steering_state(sample: SteeringStateSample, message: SteeringControllerStatus) -> None:
+def fill_steering_state(sample: SteeringStateSample, message: Any) -> None:
     """Write the arrays."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.header.frame_id = sample.frame_id
@@ -119,7 +110,7 @@ def fill_nothing(sample: EmptySample, response: Any) -> None:
     """Leave a response without fields as it is."""
 
 
-def fill_body_odometry(sample: BodyOdometrySample, message: Odometry) -> None:
+def fill_body_odometry(sample: BodyOdometrySample, message: Any) -> None:
     """Write pose, twist and, the first time, frames and covariances."""
     if message.child_frame_id != sample.frames.child_frame_id:
         _fill_constants(sample.frames, message)
@@ -128,10 +119,10 @@ def fill_body_odometry(sample: BodyOdometrySample, message: Odometry) -> None:
     fill_velocity(sample.linear, sample.angular, message.twist.twist)
 
 
-def fill_body_transform(sample: BodyOdometrySample, message: TFMessage) -> None:
+def fill_body_transform(sample: BodyOdometrySample, message: Any) -> None:
     """Write the transform from the body to the odometry frame."""
     if not message.transforms:
-        message.transforms = [TransformStamped()]
+        message.transforms = [message_like(message, 'geometry_msgs/msg/TransformStamped')]
     stamped = message.transforms[0]
     fill_stamp(sample.stamp, stamped.header.stamp)
     stamped.header.frame_id = sample.frames.frame_id
@@ -141,7 +132,7 @@ def fill_body_transform(sample: BodyOdometrySample, message: TFMessage) -> None:
     turn.x, turn.y, turn.z, turn.w = sample.pose.rotation
 
 
-def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
+def fill_joint_state(sample: JointStateSample, message: Any) -> None:
     """Write the arrays of numbers and, when they have changed, the names."""
     fill_stamp(sample.stamp, message.header.stamp)
     if message.name is not sample.name:
@@ -152,7 +143,7 @@ def fill_joint_state(sample: JointStateSample, message: JointState) -> None:
     message.effort = array('d', sample.effort)
 
 
-def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: DynamicJointState) -> None:
+def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: Any) -> None:
     """Write the values and, when they have changed, the names."""
     if message.joint_names is not sample.layout.names:
         _fill_names(sample.layout, message)
@@ -161,7 +152,7 @@ def fill_dynamic_joint_state(sample: DynamicJointStateSample, message: DynamicJo
         interfaces.values = array('d', values)
 
 
-def fill_imu(sample: ImuSample, message: Imu) -> None:
+def fill_imu(sample: ImuSample, message: Any) -> None:
     """Write what is measured and, the first time, frame and covariances."""
     if message.header.frame_id != sample.constants.frame_id:
         _fill_imu_constants(sample.constants, message)
@@ -175,7 +166,7 @@ def fill_imu(sample: ImuSample, message: Imu) -> None:
         vector.x, vector.y, vector.z = values
 
 
-def _fill_constants(frames: Frames, message: Odometry) -> None:
+def _fill_constants(frames: Frames, message: Any) -> None:
     message.header.frame_id = frames.frame_id
     message.child_frame_id = frames.child_frame_id
     for covariance, variances in (
@@ -186,19 +177,22 @@ def _fill_constants(frames: Frames, message: Odometry) -> None:
             covariance[7 * axis] = variance
 
 
-def _fill_names(layout: DynamicLayout, message: DynamicJointState) -> None:
+def _fill_names(layout: DynamicLayout, message: Any) -> None:
     message.header.frame_id = layout.frame_id
     message.joint_names = layout.names
-    message.interface_values = [InterfaceValue(interface_names=row) for row in layout.interfaces]
+    message.interface_values = [
+        message_like(message, _INTERFACES, interface_names=row) for row in layout.interfaces
+    ]
 
 
-def _fill_imu_constants(constants: ImuConstants, message: Imu) -> None:
+def _fill_imu_constants(constants: ImuConstants, message: Any) -> None:
     message.header.frame_id = constants.frame_id
     message.orientation_covariance = constants.orientation_covariance
     message.angular_velocity_covariance = constants.angular_velocity_covariance
     message.linear_acceleration_covariance = constants.linear_acceleration_covariance
 
 
+_INTERFACES = 'control_msgs/msg/InterfaceValue'
 WRITERS: dict[Key, Callable[[Any, Any], None]] = {
     (AckermannSample, 'ackermann_msgs/msg/AckermannDrive'): fill_ackermann,
     (BodyOdometrySample, 'nav_msgs/msg/Odometry'): fill_body_odometry,
@@ -212,20 +206,15 @@ WRITERS: dict[Key, Callable[[Any, Any], None]] = {
     (OdometrySample, 'tf2_msgs/msg/TFMessage'): fill_odometry_transform,
     (SteeringStateSample, 'control_msgs/msg/SteeringControllerStatus'): fill_steering_state,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): fill_twist,
-    **dof_converters.WRITERS,
-    **sensor_converters.WRITERS,
+    **dof_writers.WRITERS,
+    **sensor_writers.WRITERS,
+    **trajectory_writers.WRITERS,
 }
 
 
 def writer_of(port: Port) -> Callable[[Any, Any], None]:
-    """Return ``(sample, message) -> None`` of an output. Raises ControllerError: likewise."""
-    if _is_of_trajectories(port):
-        from amr_description.control.ros import trajectory_converters
-
-        return find(trajectory_converters.WRITERS, port)
+    """Return ``(sample, message) -> None`` of an output. Raises whatever finding it raises."""
+    if port.convert:
+        found: Callable[[Any, Any], None] = resolve(port.convert)
+        return found
     return find(WRITERS, port)
-
-
-def _is_of_trajectories(port: Port) -> bool:
-    """Whether its messages are those that only arms need, and that are slow to import."""
-    return port.sample is not None and port.sample.__module__ == trajectory_samples.__name__

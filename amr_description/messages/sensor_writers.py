@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Samples of the broadcasters of sensors, batteries and interfaces ↔ ROS messages.
+Samples of the broadcasters of sensors, batteries and interfaces → messages of ROS.
 
 ``fill_…`` writes into a message that is created once and published many times.
 """
@@ -9,17 +9,6 @@ Samples of the broadcasters of sensors, batteries and interfaces ↔ ROS message
 from array import array
 from collections.abc import Callable
 from typing import Any
-
-from control_msgs.msg import (
-    BatteryStateArray,
-    DynamicInterfaceGroupValues,
-    Float64Values,
-    InterfaceValue,
-    Keys,
-)
-from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
-from sensor_msgs.msg import BatteryState, MagneticField, NavSatFix, Range
-from tf2_msgs.msg import TFMessage
 
 from amr_description.control.sensor_samples import (
     BatteriesSample,
@@ -33,27 +22,28 @@ from amr_description.control.sensor_samples import (
     ValuesSample,
     WrenchSample,
 )
-from amr_description.ros.messages import fill_stamp
+from amr_description.messages.parts import fill_stamp
+from amr_description.messages.plain import message_like
 
 
-def fill_wrench(sample: WrenchSample, message: WrenchStamped) -> None:
+def fill_wrench(sample: WrenchSample, message: Any) -> None:
     """Write force and torque."""
     _fill_header(sample, message)
     _fill_vector(sample.force, message.wrench.force)
     _fill_vector(sample.torque, message.wrench.torque)
 
 
-def fill_pose(sample: PoseSample, message: PoseStamped) -> None:
+def fill_pose(sample: PoseSample, message: Any) -> None:
     """Write a pose."""
     _fill_header(sample, message)
     _fill_vector(sample.position, message.pose.position)
     _fill_quaternion(sample.orientation, message.pose.orientation)
 
 
-def fill_pose_transform(sample: PoseSample, message: TFMessage) -> None:
+def fill_pose_transform(sample: PoseSample, message: Any) -> None:
     """Write the transform from the frame that has the pose to the one in which it is."""
     if not message.transforms:
-        message.transforms = [TransformStamped()]
+        message.transforms = [message_like(message, 'geometry_msgs/msg/TransformStamped')]
     stamped = message.transforms[0]
     _fill_header(sample, stamped)
     stamped.child_frame_id = sample.child_frame_id
@@ -61,7 +51,7 @@ def fill_pose_transform(sample: PoseSample, message: TFMessage) -> None:
     _fill_quaternion(sample.orientation, stamped.transform.rotation)
 
 
-def fill_range(sample: RangeSample, message: Range) -> None:
+def fill_range(sample: RangeSample, message: Any) -> None:
     """Write the distance and what is known of the sensor."""
     constants = sample.constants
     fill_stamp(sample.stamp, message.header.stamp)
@@ -74,7 +64,7 @@ def fill_range(sample: RangeSample, message: Range) -> None:
     message.range = sample.range
 
 
-def fill_fix(sample: NavSatFixSample, message: NavSatFix) -> None:
+def fill_fix(sample: NavSatFixSample, message: Any) -> None:
     """Write a satellite fix."""
     _fill_header(sample, message)
     message.status.status = sample.status
@@ -86,48 +76,53 @@ def fill_fix(sample: NavSatFixSample, message: NavSatFix) -> None:
     message.position_covariance_type = sample.position_covariance_type
 
 
-def fill_magnetic_field(sample: MagneticFieldSample, message: MagneticField) -> None:
+def fill_magnetic_field(sample: MagneticFieldSample, message: Any) -> None:
     """Write a magnetic field."""
     _fill_header(sample, message)
     _fill_vector(sample.field, message.magnetic_field)
     message.magnetic_field_covariance = sample.covariance
 
 
-def fill_names(sample: NamesSample, message: Keys) -> None:
+def fill_names(sample: NamesSample, message: Any) -> None:
     """Write names."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.keys = sample.names
 
 
-def fill_values(sample: ValuesSample, message: Float64Values) -> None:
+def fill_values(sample: ValuesSample, message: Any) -> None:
     """Write numbers."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.values = array('d', sample.values)
 
 
-def fill_battery(sample: BatterySample, message: BatteryState) -> None:
+def fill_battery(sample: BatterySample, message: Any) -> None:
     """Write the state of a battery, without that of its cells."""
     _fill_header(sample, message)
     for name in BatterySample.__slots__[2:]:
         setattr(message, name, getattr(sample, name))
 
 
-def fill_batteries(sample: BatteriesSample, message: BatteryStateArray) -> None:
+def fill_batteries(sample: BatteriesSample, message: Any) -> None:
     """Write the states of several batteries."""
     if len(message.battery_states) != len(sample.batteries):
-        message.battery_states = [BatteryState() for _ in sample.batteries]
+        message.battery_states = [
+            message_like(message, 'sensor_msgs/msg/BatteryState') for _ in sample.batteries
+        ]
     for each, below in zip(sample.batteries, message.battery_states, strict=True):
         fill_battery(each, below)
 
 
-def fill_interface_groups(
-    sample: InterfaceGroupsSample, message: DynamicInterfaceGroupValues
-) -> None:
+def fill_interface_groups(sample: InterfaceGroupsSample, message: Any) -> None:
     """Write names and values."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.interface_groups = [group.name for group in sample.groups]
     message.interface_values = [
-        InterfaceValue(interface_names=group.interfaces, values=array('d', group.values))
+        message_like(
+            message,
+            'control_msgs/msg/InterfaceValue',
+            interface_names=group.interfaces,
+            values=array('d', group.values),
+        )
         for group in sample.groups
     ]
 

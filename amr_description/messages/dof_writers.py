@@ -1,18 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Samples of controllers of degrees of freedom, and of grippers ↔ ROS messages.
+Samples of controllers of degrees of freedom, and of grippers → messages of ROS.
 
 ``fill_…`` writes into a message that is created once and published many times.
 """
 
 from collections.abc import Callable
 from typing import Any
-
-from builtin_interfaces.msg import Duration
-from control_msgs.action import ParallelGripperCommand
-from control_msgs.msg import MultiDOFStateStamped, PidState, SingleDOFState
-from std_srvs.srv import SetBool
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.dof_samples import (
@@ -21,14 +16,17 @@ from amr_description.control.dof_samples import (
     PidStateSample,
     SetBoolResponse,
 )
-from amr_description.ros.messages import fill_stamp
+from amr_description.messages.parts import fill_stamp
+from amr_description.messages.plain import message_like
 
 
-def fill_dof_states(sample: DofStatesSample, message: MultiDOFStateStamped) -> None:
+def fill_dof_states(sample: DofStatesSample, message: Any) -> None:
     """Write the state of each degree of freedom."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.dof_states = [
-        SingleDOFState(
+        message_like(
+            message,
+            'control_msgs/msg/SingleDOFState',
             name=state.name,
             reference=state.reference,
             feedback=state.feedback,
@@ -42,18 +40,18 @@ def fill_dof_states(sample: DofStatesSample, message: MultiDOFStateStamped) -> N
     ]
 
 
-def fill_pid_state(sample: PidStateSample, message: PidState) -> None:
+def fill_pid_state(sample: PidStateSample, message: Any) -> None:
     """Write what is inside of a PID."""
     fill_stamp(sample.stamp, message.header.stamp)
     seconds, rest = divmod(sample.time_step, NANOSECONDS)
-    message.timestep = Duration(sec=seconds, nanosec=rest)
+    message.timestep.sec, message.timestep.nanosec = seconds, rest
     message.error_dot = sample.error_rate
     for name in ('error', 'p_error', 'i_error', 'd_error', 'p_term', 'i_term', 'd_term'):
         setattr(message, name, getattr(sample, name))
     message.i_max, message.i_min, message.output = sample.i_max, sample.i_min, sample.output
 
 
-def fill_switch_response(sample: SetBoolResponse, message: SetBool.Response) -> None:
+def fill_switch_response(sample: SetBoolResponse, message: Any) -> None:
     """Write the answer."""
     message.success, message.message = sample.success, sample.message
 
@@ -64,17 +62,13 @@ def fill_gripper_state(sample: GripperState, message: Any) -> None:
     message.stalled, message.reached_goal = sample.stalled, sample.reached_goal
 
 
-def fill_parallel_gripper_feedback(
-    sample: GripperState, message: ParallelGripperCommand.Feedback
-) -> None:
+def fill_parallel_gripper_feedback(sample: GripperState, message: Any) -> None:
     """Write the feedback of ParallelGripperCommand."""
     message.state.name = [sample.joint]
     message.state.position, message.state.effort = [sample.position], [sample.effort]
 
 
-def fill_parallel_gripper_result(
-    sample: GripperState, message: ParallelGripperCommand.Result
-) -> None:
+def fill_parallel_gripper_result(sample: GripperState, message: Any) -> None:
     """Write the result of ParallelGripperCommand."""
     fill_parallel_gripper_feedback(sample, message)
     message.stalled, message.reached_goal = sample.stalled, sample.reached_goal

@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """
 A place in a serialized message (:mod:`amr_description.ros.cdr`), which goes on from part to part.
-
-This module imports no rclpy.
 """
 
 import struct
 
-from amr_description.ros.cdr_types import advance_by, ALIGNMENT, Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import advance_by, ALIGNMENT, Group, Layout, Many, Number, Text
 
 BEGIN = 4
 """Bytes before the first field."""

@@ -1,20 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Samples of joint trajectories ↔ ROS messages.
+Samples of joint trajectories → messages of ROS.
 
 ``fill_…`` writes into a message; one that is published at every update is filled many times.
 """
 
 from array import array
 from typing import Any
-
-from control_msgs.action import FollowJointTrajectory
-from control_msgs.msg import (
-    JointTrajectoryControllerState,
-)
-from control_msgs.srv import QueryTrajectoryState
-from trajectory_msgs.msg import JointTrajectoryPoint
 
 from amr_description.control.trajectory_samples import (
     FollowTrajectoryFeedback,
@@ -23,12 +16,10 @@ from amr_description.control.trajectory_samples import (
     TrajectoryPoint,
     TrajectoryStateSample,
 )
-from amr_description.ros.messages import fill_stamp
+from amr_description.messages.parts import fill_stamp
 
 
-def fill_follow_feedback(
-    sample: FollowTrajectoryFeedback, message: FollowJointTrajectory.Feedback
-) -> None:
+def fill_follow_feedback(sample: FollowTrajectoryFeedback, message: Any) -> None:
     """Write stamp, names and the three states."""
     fill_stamp(sample.stamp, message.header.stamp)
     message.joint_names = sample.joint_names
@@ -37,17 +28,13 @@ def fill_follow_feedback(
     _fill_point(sample.error, message.error)
 
 
-def fill_follow_result(
-    sample: FollowTrajectoryResult, message: FollowJointTrajectory.Result
-) -> None:
+def fill_follow_result(sample: FollowTrajectoryResult, message: Any) -> None:
     """Write code and text."""
     message.error_code = sample.error_code
     message.error_string = sample.error_string
 
 
-def fill_trajectory_state(
-    sample: TrajectoryStateSample, message: JointTrajectoryControllerState
-) -> None:
+def fill_trajectory_state(sample: TrajectoryStateSample, message: Any) -> None:
     """Write the four states and, when they have changed, the names."""
     fill_stamp(sample.stamp, message.header.stamp)
     if message.joint_names is not sample.joint_names:
@@ -59,9 +46,7 @@ def fill_trajectory_state(
     message.speed_scaling_factor = sample.speed_scaling_factor
 
 
-def fill_query_response(
-    sample: QueryStateResponse, message: QueryTrajectoryState.Response
-) -> None:
+def fill_query_response(sample: QueryStateResponse, message: Any) -> None:
     """Write all of it."""
     message.success = sample.success
     message.message = sample.message
@@ -71,7 +56,7 @@ def fill_query_response(
     message.acceleration = array('d', sample.point.accelerations)
 
 
-def _fill_point(point: TrajectoryPoint, message: JointTrajectoryPoint) -> None:
+def _fill_point(point: TrajectoryPoint, message: Any) -> None:
     message.positions = array('d', point.positions)
     message.velocities = array('d', point.velocities)
     message.accelerations = array('d', point.accelerations)
