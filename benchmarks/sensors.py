@@ -46,7 +46,7 @@ TOPICS: Mapping[str, Any] = {
     '/camera/points': PointCloud2,
 }
 """Of all sensors that look at the world."""
-_MODULES = ('amr_description/sim/ros/sensors/', 'amr_description/sim/sensor_schedule')
+_MODULES = ('amr_description/simulation/topics/', 'amr_description/sim/sensor_schedule')
 _RATE = 100
 """Hz, of the control loop."""
 _ROUNDS = 3

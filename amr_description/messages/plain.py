@@ -10,7 +10,7 @@ the field.
 
 from collections.abc import Mapping, Sequence
 import importlib
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from amr_description.errors import AmrError
 from amr_description.messages.definitions import Field, fields_of, NUMBERS, TEXTS, texts
@@ -32,6 +32,11 @@ class PlainMessage:
 
     def __repr__(self) -> str:
         return f'PlainMessage({self.__dict__})'
+
+    if TYPE_CHECKING:  # which fields it has, only its definition says
+
+        def __getattr__(self, name: str) -> Any: ...
+        def __setattr__(self, name: str, value: Any) -> None: ...
 
 
 class Unknown:

@@ -14,8 +14,9 @@ of ``simulation_interfaces``, below ``/mujoco_sim/``::
 
 Robots are pushed by ``~/wrench`` (sim/ros/wrench_topics.py).
 
-It publishes its static surroundings as markers on ``~/world`` (sim/ros/world_markers.py), with
-what each entity was spawned on ``~/spawned/NAME`` (sim/ros/spawned_topics.py), and on
+It publishes its static surroundings as markers on ``~/world``
+(simulation/topics/world_markers.py), with what each entity was spawned on ``~/spawned/NAME``
+(sim/ros/spawned_topics.py), and on
 ``~/received`` which commands have arrived (control/ros/loop_publisher.py).
 """
 
@@ -46,7 +47,7 @@ from amr_description.sim.ros.simulation import (
 )
 from amr_description.sim.ros.simulation_services import SimulationServices, WorldServices
 from amr_description.sim.ros.spawn_services import SpawnServices
-from amr_description.sim.ros.world_markers import WorldPublisher
+from amr_description.sim.ros.world_publisher import WorldPublisher
 from amr_description.sim.ros.wrench_topics import WrenchTopics
 from amr_description.simulation.parameters import SimulationParameters
 from amr_description.streams import never_wait_for_stderr

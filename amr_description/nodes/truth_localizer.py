@@ -51,7 +51,7 @@ from amr_description.ros.messages import nanoseconds, stamp_fault, transform_of
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import run
-from amr_description.sim.ros.names import ODOM_TOPIC
+from amr_description.simulation.topics.names import ODOM_TOPIC
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.listener import TransformListener
 

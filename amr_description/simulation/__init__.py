@@ -15,6 +15,7 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``api.py``                 what a simulation and its robots can do, wherever they run
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds
 ``parameters.py``          the parameters of a simulation, which are those of the simulator's node
+``topics/``                what it publishes: sensors, ground truth, transforms
 ``tracebacks.py``          which of our frames a failed test shows
 
 ``engine.py``              the engine: world, loop, and robots that come and go with their managers

@@ -3,7 +3,7 @@
 """
 What the sensors of a robot see at the present instant, for a test in lock-step.
 
-The simulator measures when it is asked (:mod:`amr_description.sim.ros.sensors.measure_service`),
+The simulator measures when it is asked (:mod:`amr_description.sim.ros.measure_service`),
 so a reading is of the instant at which it is taken, whatever the rate of the sensor, and no time
 passes. Only what is asked for is subscribed to, and pictures and clouds no longer than that:
 while time passes they are not made.

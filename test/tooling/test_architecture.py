@@ -74,6 +74,7 @@ ARROWS = {
         'controllers',
         'hardware',
         'sim',
+        'cdr',
         'messages',
         'control',
         'model',
@@ -430,8 +431,8 @@ def test_the_simulator_loads_what_sensors_measure_with_only_for_them():
     code = 'import amr_description.nodes.mujoco_sim, sys; print(*sys.modules)'
     loaded = subprocess.run([sys.executable, '-c', code], check=True, stdout=subprocess.PIPE)
     names = loaded.stdout.decode().split()
-    heavy = r'amr_description\.sim\.(lidar|cameras\..*|ros\.sensors\.equipment)'
-    assert 'amr_description.sim.ros.sensors.manager' in names
+    heavy = r'amr_description\.(sim\.(lidar|cameras\..*)|simulation\.topics\.equipment)'
+    assert 'amr_description.simulation.topics.sensor_manager' in names
     assert [name for name in names if re.fullmatch(heavy, name)] == []
 
 

@@ -135,13 +135,16 @@ class LoopTopic:
         """
         Publish a big sample now, while other threads go on: the control thread, above all.
 
-        Its encoder makes bytes. Raises InvalidHandle: the topic is gone.
+        Its encoder makes bytes. Where the topic is gone, nobody hears it any more.
         """
         made = self._encode(sample)
         sink = self.sink  # which the control thread may take away
         if sink is not None:
             sink(made)
-        self._publish_without_lock(made)
+        try:
+            self._publish_without_lock(made)
+        except InvalidHandle:  # its robot has been removed meanwhile
+            self.is_heard = False
 
     def look(self) -> None:
         """Look whether somebody subscribes, 0.9 µs. Raises InvalidHandle: the topic is gone."""

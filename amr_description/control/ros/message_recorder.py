@@ -64,14 +64,14 @@ class RecordedPublisher:
         return type_name(self.publisher.msg_type)
 
     def publish(self, message: Any) -> None:
-        """Publish now, and record."""
+        """Publish a message, or the bytes of one, now, and record."""
         if self._is_latched:
             self._latest = message
         sink = self._sink
         if sink is None:
             self.publisher.publish(message)
         else:
-            data = serialize(message)
+            data = _bytes_of(message)
             sink(data)
             self.publisher.publish(data)
 
@@ -79,7 +79,11 @@ class RecordedPublisher:
         """Record from now on, what is latched first; None: no more."""
         self._sink = None if recorder is None else recorder.messages_of(self.publisher)
         if self._sink is not None and self._latest is not None:
-            self._sink(serialize(self._latest))
+            self._sink(_bytes_of(self._latest))
+
+
+def _bytes_of(message: Any) -> bytes:
+    return message if isinstance(message, bytes) else serialize(message)
 
 
 class RecordedInput:

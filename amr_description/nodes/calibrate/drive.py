@@ -25,7 +25,7 @@ from amr_description.errors import CalibrationError
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds, transform_of
 from amr_description.ros.service_calls import ask_until_answered, wait_until
-from amr_description.sim.ros.names import ODOM_TOPIC
+from amr_description.simulation.topics.names import ODOM_TOPIC
 
 MOVING_SPEED = 1e-3
 """m/s and rad/s; a robot whose speeds are not above this is at rest."""

@@ -9,7 +9,6 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``executor_tasks.py``       coroutines of one executor that another one awaits
 ``other_clock.py``          ends, or warns, where another simulator publishes ``/clock``
 ``run_recording.py``        begins and ends recordings, as the parameter ``record`` says
-``link_transforms.py``      transforms of links, for a recording
 ``run_recorder.py``         records what this process publishes, and the commands, to a bag
 ``loop_timing.py``          warns when real time is not kept, with the slow stage of the loop
 
@@ -21,10 +20,8 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``wrench_topics.py``        ``~/wrench``: pushes from outside
 ``posix_regex.py``          the regular expressions of these filters
 
-``names.py``                names of its topics and frames
-``sensors/``                lidars, cameras, contacts of robots as topics
-``ground_truth.py``         ``ground_truth/odom`` and ``ground_truth/wheels`` of every robot
+``measure_service.py``      ``~/measure``: the present instant, while time stands still
 ``spawned_topics.py``       ``~/spawned/NAME``: with what each entity was spawned
-``world_markers.py``        ``~/world``: the static geometry as markers
+``world_publisher.py``      ``~/world``: the static geometry as markers
 =========================== =======================================================================
 """

@@ -30,11 +30,11 @@ from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_thread
 from amr_description.sim.robot_spec import WORLD_LINK
 from amr_description.sim.ros.executor_tasks import abandon, run_in
-from amr_description.sim.ros.ground_truth import GroundTruth
-from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.spawning import SpawnCode
 from amr_description.simulation.engine import Arrival, SimulationEngine, Spawned
 from amr_description.simulation.plugin_controllers import start_controllers
+from amr_description.simulation.topics.ground_truth import GroundTruth
+from amr_description.simulation.topics.sensor_manager import SensorManager
 
 
 class Category(enum.IntEnum):

@@ -46,12 +46,12 @@ from amr_description.ros.messages import (
 )
 from amr_description.sim.entity_state import BoundingBox, bounds_of, motion_of, pose_of, set_state
 from amr_description.sim.ros.entities import Category, Entity, EntityRecord
-from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.posix_regex import PosixRegex
 from amr_description.sim.ros.service_replies import create_services
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import checked_pose
 from amr_description.sim.wrenches import MOST
+from amr_description.simulation.topics.names import WORLD_FRAME
 
 FEATURES = (
     SimulatorFeatures.ENTITY_TAGS,

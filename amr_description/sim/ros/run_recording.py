@@ -28,7 +28,7 @@ from amr_description.model.controller_files import files_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.cdr_padding import serialize
-from amr_description.sim.ros.link_transforms import (
+from amr_description.simulation.topics.link_transforms import (
     FIXED,
     LinkTransforms,
     MOVING,
@@ -156,7 +156,7 @@ class RunRecording:
             for robot in reversed(run.robots)
         }
         fixed = self._transforms.set_robots(self._robots())
-        return {**messages, FIXED: (TF_TYPE, serialize(fixed))}
+        return {**messages, FIXED: (TF_TYPE, fixed)}
 
     def _latch(self, recorder: 'RunRecorder', messages: Mapping[str, tuple[str, bytes]]) -> None:
         for topic in self._described - messages.keys():
@@ -183,7 +183,7 @@ class RunRecording:
         if self._recorder is not None and self._has_ticked(time):
             message = self._transforms.moving(time)
             if message is not None:
-                self._recorder.add_sample(MOVING, TF_TYPE, serialize(message))
+                self._recorder.add_sample(MOVING, TF_TYPE, message)
 
     def detach(self) -> None:
         """Record nothing that is published from now on; :meth:`end` completes the bag."""

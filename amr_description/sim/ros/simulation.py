@@ -27,21 +27,23 @@ from amr_description.bag.run_description import RunDescription, RunRobot
 from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
+from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.control.ros.pacing import WallPacer
+from amr_description.control.ros.realtime import set_time_slice, USUAL_SLICE
 from amr_description.parameters import specs
 from amr_description.ros.log_thread import LogThread
 from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
 from amr_description.sim.ros.entities import EntityManager
-from amr_description.sim.ros.ground_truth import GroundTruth
-from amr_description.sim.ros.link_transforms import LinkTransforms, SpawnedRobot
 from amr_description.sim.ros.loop_timing import LoopProfiler
 from amr_description.sim.ros.run_recording import controllers_text, on_loop, RunRecording
-from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.ros.spawned_topics import SpawnedTopics
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.engine import SimulationEngine
 from amr_description.simulation.parameters import SimulationParameters
+from amr_description.simulation.topics.ground_truth import GroundTruth
+from amr_description.simulation.topics.link_transforms import LinkTransforms, SpawnedRobot
+from amr_description.simulation.topics.sensor_manager import SensorManager
 
 PAUSED_CLOCK_PERIOD = 0.1
 """s of the wall clock between two messages on ``/clock`` while paused."""
@@ -101,6 +103,7 @@ class Simulation:
             self.log = self.logs.log_of(node.get_logger())
             publisher = self.publisher = ClockedLoopPublisher(node)
             publisher.adopt(node)
+            topics = NodeTopics(node, publisher)
             calls = CallQueue(PAUSED_CLOCK_PERIOD)
             self._pacer = WallPacer(parameters.real_time_factor, calls)
             self.engine = SimulationEngine(
@@ -113,12 +116,12 @@ class Simulation:
             )
             self.world = self.engine.world
             self._ground_truth = GroundTruth(
-                node, publisher, self.world, parameters.ground_truth_rate, self._has_ticked
+                topics, self.world, parameters.ground_truth_rate, self._has_ticked
             )
             self.loop_thread = LoopThread(calls, executor)
             self.loop_thread.log = self.log
             self.loop_thread.loop = self.engine.loop
-            self._sensors = self._sensor_manager()
+            self._sensors = self._sensor_manager(topics)
             context = LoopContext(self.loop_thread, publisher, self.logs)
             parts = self._ground_truth, self._sensors, executor, self.log
             self.entities = EntityManager(context, self.engine, *parts)
@@ -135,15 +138,15 @@ class Simulation:
         profiler = LoopProfiler(self.log, world, self._pacer, self.publisher)
         return profiler, profiler, profiler
 
-    def _sensor_manager(self) -> SensorManager:
+    def _sensor_manager(self, topics: NodeTopics) -> SensorManager:
         sensors = SensorManager(
-            self._node,
-            self.publisher,
+            topics,
             self.world,
             self.log,
             self._is_paced,
             self._has_ticked,
             self.engine.settings.camera_renderer,
+            begin_thread=_begin_measuring,
         )
         sensors.on_first = self._serve_measurements
         return sensors
@@ -204,7 +207,7 @@ class Simulation:
         return self._pacer.factor > 0.0 and self.loop_thread.loop.is_running
 
     def _serve_measurements(self) -> None:
-        from amr_description.sim.ros.sensors.measure_service import MeasureService
+        from amr_description.sim.ros.measure_service import MeasureService
 
         loop = self.loop_thread.loop
 
@@ -316,3 +319,8 @@ class Simulation:
             self.loop_thread.submit(
                 lambda: self._pacer.set_factor(now.real_time_factor, loop.time)
             )
+
+
+def _begin_measuring() -> None:
+    """Have the control thread, which starts the one that measures, go first."""
+    set_time_slice(USUAL_SLICE)

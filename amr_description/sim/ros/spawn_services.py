@@ -36,11 +36,11 @@ from amr_description.model.description_file import (
 from amr_description.model.mesh_paths import with_absolute_paths
 from amr_description.ros.messages import transform_of
 from amr_description.ros.runtime import run_in_thread
-from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.ros.trusted_files import distrust, folder_of
 from amr_description.sim.spawning import SpawnCode
+from amr_description.simulation.topics.names import WORLD_FRAME
 
 FEATURES = (
     SimulatorFeatures.SPAWNING,

@@ -20,8 +20,8 @@ from simulation_interfaces.msg import SpawnEntity
 from amr_description.ros.messages import fill_pose
 from amr_description.ros.qos import LATCHED
 from amr_description.sim.ros.entities import Entity
-from amr_description.sim.ros.names import WORLD_FRAME
 from amr_description.simulation.engine import Spawned
+from amr_description.simulation.topics.names import WORLD_FRAME
 
 _NO_TOKEN = re.compile(r'[^A-Za-z0-9]+|^(?=[0-9])')
 

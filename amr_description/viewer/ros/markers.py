@@ -3,7 +3,7 @@
 """
 The markers of a world, and /diagnostics, converted to messages for pages.
 
-The markers may be those of sim/ros/world_markers.py, or of another simulator.
+The markers may be those of simulation/topics/world_markers.py, or of another simulator.
 """
 
 from collections.abc import Sequence

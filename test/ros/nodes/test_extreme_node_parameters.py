@@ -17,6 +17,7 @@ from amr_description.control.manager_parameters import CommonParameters, Manager
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.control.ros.node_parameters import NodeParameters
+from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.control.ros.pacing import WallPacer
 from amr_description.control.ros.status_topics import DiagnosticsTopic
 from amr_description.controller_manager.parameters import ManagerParameters
@@ -35,9 +36,9 @@ from amr_description.nodes.viewer import ViewerSettings
 from amr_description.parameters import build, specs
 from amr_description.ros.parameters import declare, declare_missing
 from amr_description.ros.runtime import argument_errors
-from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.parameters import SimulationParameters
+from amr_description.simulation.topics.ground_truth import GroundTruth
 
 FLOATS = (1e300, 1e-300, -1e300, -1e-300, 5e-324, math.inf, -math.inf, math.nan, 0.0)
 INTEGERS = (2**63 - 1, -(2**63), 2**31, -1, 0)
@@ -153,7 +154,7 @@ def test_mujoco_sim(name, value):
         pacer.pace(10_000_000)
         world = MujocoWorld('empty', settings=parameters.physics, seed=parameters.seed)
         publisher = ClockedLoopPublisher(node)
-        GroundTruth(node, publisher, world, parameters.ground_truth_rate)
+        GroundTruth(NodeTopics(node, publisher), world, parameters.ground_truth_rate)
         for _ in range(3):
             publisher.publish(world.time)
             world.step(1)

@@ -17,14 +17,15 @@ from sensor_msgs_py import point_cloud2
 from support.running_programs import PATIENCE
 
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Camera, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
 from amr_description.sim.cameras.renderer import Picture
-from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.sensor_manager import SensorManager
 
 TURN = 10_000_000
 """ns, of the loop."""
@@ -51,7 +52,11 @@ class Host:
         self.lines = []
         self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
         self.sensors = SensorManager(
-            self.node, self.loop_publisher, self.world, self.log, lambda: self.is_paced
+            NodeTopics(self.node, self.loop_publisher),
+            self.world,
+            self.log,
+            lambda: self.is_paced,
+            begin_thread=lambda: None,
         )
 
     def log(self, _, text, **__):
@@ -64,7 +69,7 @@ class Host:
     @property
     def task(self):
         """What the first camera asks for measurements."""
-        ((_, camera), *_) = self.sensors._robots['amr']  # noqa: SLF001
+        ((_, camera, _), *_) = self.sensors._robots['amr']  # noqa: SLF001
         return camera._task  # noqa: SLF001
 
     def turn(self, count=1):

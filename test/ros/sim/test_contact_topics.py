@@ -12,19 +12,20 @@ from ros_gz_interfaces.msg import Contacts, Entity
 from support.running_programs import PATIENCE
 
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.model.frames import Transform
 from amr_description.model.sensors import ContactSensor, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
 from amr_description.sim.contacts import Contact, ContactPoint
-from amr_description.sim.ros.sensors.contact import (
+from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.contact import (
     contacts_bytes,
     CONTACTS_STATE,
     contacts_state_bytes,
     ContactsSample,
 )
-from amr_description.sim.ros.sensors.manager import SensorManager
-from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.sensor_manager import SensorManager
 
 WEIGHT = 2.0 * 9.81
 """N."""
@@ -47,8 +48,7 @@ class Host:
         self.lines = []
         publisher = ClockedLoopPublisher(self.node, look_period=0)
         self.sensors = SensorManager(
-            self.node,
-            publisher,
+            NodeTopics(self.node, publisher),
             self.world,
             lambda severity, text, throttle=0.0: self.lines.append(text),
             lambda: False,

@@ -15,11 +15,12 @@ from support.running_programs import PATIENCE
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.model.frames import rotate, Transform
 from amr_description.ros.messages import nanoseconds, transform_of
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.ros.ground_truth import GroundTruth
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.ground_truth import GroundTruth
 
 WEIGHT = 7.0 * 9.81
 """N, of the shipped robot."""
@@ -34,7 +35,7 @@ class Host:
         self.node = Node('host')
         self.world = MujocoWorld('empty')
         self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
-        self.truth = GroundTruth(self.node, self.loop_publisher, self.world, rate)
+        self.truth = GroundTruth(NodeTopics(self.node, self.loop_publisher), self.world, rate)
 
     def spawn(self, name, namespace, pose=None, urdf=AMR):
         self.world.spawn(name, urdf, pose or Transform())

@@ -17,6 +17,7 @@ from sensor_msgs.msg import LaserScan, PointCloud2, Range
 from support.running_programs import PATIENCE
 
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
@@ -24,9 +25,9 @@ from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
 from amr_description.sensor_msgs_py.point_cloud2 import read_points
 from amr_description.sim.lidar import SimulatedLidar
-from amr_description.sim.ros.sensors import lidar
-from amr_description.sim.ros.sensors.manager import SensorManager
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics import lidar
+from amr_description.simulation.topics.sensor_manager import SensorManager
 
 MS = 1_000_000
 TURN = 10 * MS
@@ -44,7 +45,11 @@ class Host:
         self.world = MujocoWorld('warehouse')
         self.loop_publisher = ClockedLoopPublisher(self.node, look_period=0)
         self.sensors = SensorManager(
-            self.node, self.loop_publisher, self.world, self.log, lambda: self.is_paced
+            NodeTopics(self.node, self.loop_publisher),
+            self.world,
+            self.log,
+            lambda: self.is_paced,
+            begin_thread=lambda: None,
         )
 
     def log(self, severity, text, *, throttle=0.0):

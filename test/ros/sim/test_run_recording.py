@@ -18,6 +18,7 @@ from amr_description.bag.run_description import from_text, RunDescription, TOPIC
 from amr_description.control.contracts import Severity
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.errors import BagError
+from amr_description.ros.cdr_padding import serialize
 from amr_description.sim.ros.run_recorder import RunRecorder
 from amr_description.sim.ros.run_recording import RunRecording
 from amr_description.sim.ros.simulation import Simulation
@@ -27,7 +28,7 @@ class Transforms:
     """Of no links."""
 
     def set_robots(self, robots):
-        return TFMessage()
+        return serialize(TFMessage())
 
     def restart(self):
         pass

@@ -14,11 +14,13 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.ament_index import shipped_worlds
 from amr_description.model.frames import rotate
+from amr_description.ros.qos import LATCHED
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.ros.world_markers import INFINITE_WIDTH, LATCHED, markers, WorldPublisher
+from amr_description.sim.ros.world_publisher import WorldPublisher
 from amr_description.sim.static_geometry import ShapeKind, visible_shapes
 from amr_description.sim.world import MujocoWorld
 from amr_description.sim.world_file import load_world
+from amr_description.simulation.topics.world_markers import INFINITE_WIDTH, markers
 from amr_description.viewer.ros.markers import shapes_of
 
 GEOMS = """

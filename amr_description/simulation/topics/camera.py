@@ -20,26 +20,19 @@ subscribes to: colours, depth, points and JPEGs are each left out by themselves.
 from functools import partial
 from typing import Any
 
-from rclpy.exceptions import InvalidHandle
-from rclpy.qos import QoSProfile
-from sensor_msgs.msg import CameraInfo, CompressedImage, Image, PointCloud2
-
-from amr_description.control.ros.loop_publisher import LoopTopic
 from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.pictures import encoded, jpeg
 from amr_description.sim.cameras.renderer import Shot
 from amr_description.sim.cameras.simulated_camera import SimulatedCamera
-from amr_description.sim.ros.sensors.image_messages import (
+from amr_description.simulation.topics.advertising import Topic
+from amr_description.simulation.topics.image_messages import (
     camera_info_encoder,
     compressed_image_encoder,
     Encode,
     image_encoder,
     points_encoder,
 )
-from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-
-QOS = QoSProfile(depth=10)
-"""Reliable: who subscribes best effort, as SensorDataQoS does, hears it too."""
+from amr_description.simulation.topics.sensor_topics import SensorContext, SensorTopics
 
 _DEPTH_ENCODING = '32FC1'
 
@@ -51,22 +44,21 @@ class CameraTopics(SensorTopics):
         """Create the topics."""
         mount = camera.mount
         self._camera, self._context = camera, context
-        self._publishers: list[Any] = []
         frame = context.frame(mount.frame or mount.link)
         encoding = camera.encoding
         has_color = bool(camera.image_topic)
         self._image = self._topic(
-            Image, camera.image_topic, image_encoder(camera, frame, encoding)
+            'Image', camera.image_topic, image_encoder(camera, frame, encoding)
         )
         compressed = f'{camera.image_topic}/compressed' if has_color else ''
         self._compressed = self._topic(
-            CompressedImage, compressed, compressed_image_encoder(frame, encoding)
+            'CompressedImage', compressed, compressed_image_encoder(frame, encoding)
         )
         self._depth = self._topic(
-            Image, camera.depth_topic, image_encoder(camera, frame, _DEPTH_ENCODING)
+            'Image', camera.depth_topic, image_encoder(camera, frame, _DEPTH_ENCODING)
         )
         self._points = self._topic(
-            PointCloud2,
+            'PointCloud2',
             camera.points_topic,
             points_encoder(
                 camera,
@@ -76,7 +68,7 @@ class CameraTopics(SensorTopics):
         )
         info = camera_info_encoder(camera, frame)
         self._infos = [
-            self._topic(CameraInfo, topic, lambda time, _: info(time))
+            self._topic('CameraInfo', topic, lambda time, _: info(time))
             for topic in dict.fromkeys((camera.camera_info_topic, camera.depth_camera_info_topic))
         ]
         self._simulated = SimulatedCamera(camera, context.robot, context.states)
@@ -105,19 +97,11 @@ class CameraTopics(SensorTopics):
         else:
             self._send_infos(time)
 
-    def destroy(self) -> None:
-        """Remove the topics."""
-        for publisher in self._publishers:
-            self._context.node.destroy_publisher(publisher)
-
-    def _topic(self, kind: Any, name: str, encode: Encode) -> '_BulkTopic':
-        context = self._context
-        topic = context.topic(name, self._camera.mount)
-        if not topic:
+    def _topic(self, kind: str, name: str, encode: Encode) -> '_BulkTopic':
+        if not name:
             return _BulkTopic(None, encode)
-        publisher = context.node.create_publisher(kind, topic, QOS)
-        self._publishers.append(publisher)
-        return _BulkTopic(context.loop_publisher.topic(publisher, _as_it_is), encode)
+        message, mount = f'sensor_msgs/msg/{kind}', self._camera.mount
+        return _BulkTopic(self._context.advertise(name, mount, message, _as_it_is), encode)
 
     def _make(self, time: int, shot: Shot) -> None:
         """Make a picture and publish it; on the thread of the worker."""
@@ -142,7 +126,7 @@ class CameraTopics(SensorTopics):
 class _BulkTopic:
     """A topic of messages of the worker, which are published at once; maybe none at all."""
 
-    def __init__(self, topic: LoopTopic | None, encode: Encode) -> None:
+    def __init__(self, topic: Topic | None, encode: Encode) -> None:
         self._topic, self._encode = topic, encode
 
     @property
@@ -154,10 +138,7 @@ class _BulkTopic:
         """Publish if anybody subscribes."""
         topic = self._topic
         if topic is not None and topic.is_heard:
-            try:
-                topic.write_aside(self._encode(time, data))
-            except InvalidHandle:  # its robot has been removed meanwhile
-                topic.is_heard = False
+            topic.write_aside(self._encode(time, data))
 
 
 def _as_it_is(message: bytes) -> bytes:

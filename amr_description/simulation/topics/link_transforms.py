@@ -8,18 +8,15 @@ there in a test. In the recording they are as it would publish them: those of mo
 ``/tf``, 20 times a second, those of fixed ones latched on ``/tf_static``; but as they truly are.
 """
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, TypeAlias
 
-from geometry_msgs.msg import TransformStamped
-from tf2_msgs.msg import TFMessage
-
+from amr_description.cdr.writer import Writer
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform
 from amr_description.model.kinematics import joint_transform
 from amr_description.model.robot import Joint, JointType, Robot
 from amr_description.model.sensors import frame_in
-from amr_description.ros.messages import fill_stamp
 from amr_description.sim.world import MujocoWorld
 
 TYPE = 'tf2_msgs/msg/TFMessage'
@@ -37,54 +34,59 @@ class SpawnedRobot(NamedTuple):
     robot: Robot
 
 
+_Placed: TypeAlias = tuple[SpawnedRobot, Joint, Transform]
+"""Where the child of a joint is, in its parent."""
+
+
 class LinkTransforms:
-    """See the module; all but :meth:`set_robots` is called on the control thread."""
+    """See the module; messages are bytes. All but :meth:`set_robots` is for the control thread."""
 
     def __init__(self, world: MujocoWorld) -> None:
         self._world = world
         self._interval = -1
         self._robots: tuple[SpawnedRobot, ...] = ()
 
-    def set_robots(self, robots: Sequence[SpawnedRobot]) -> TFMessage:
+    def set_robots(self, robots: Sequence[SpawnedRobot]) -> bytes:
         """Take these robots; return the transforms of their fixed joints."""
         self._robots = tuple(robots)
-        fixed = TFMessage()
-        for each in robots:
-            for joint in each.robot.joints:
-                if joint.type in (JointType.FIXED, JointType.PLANAR):
-                    fixed.transforms.append(_stamped(each, joint, joint_transform(joint), 0))
-        return fixed
+        fixed = [
+            (each, joint, joint_transform(joint))
+            for each in robots
+            for joint in each.robot.joints
+            if joint.type in (JointType.FIXED, JointType.PLANAR)
+        ]
+        return _message(fixed, 0)
 
     def restart(self) -> None:
         """Have the next instant be due."""
         self._interval = -1
 
-    def moving(self, time: int) -> TFMessage | None:
+    def moving(self, time: int) -> bytes | None:
         """Return the transforms of moving joints at ``time``, ns; None: they are not due."""
         interval = time // _PERIOD
         if interval == self._interval:
             return None
         self._interval = interval
-        message, present = TFMessage(), self._world.names
-        for each in self._robots:
-            if each.name in present:
-                self._add(message, each, time)
-        return message if message.transforms else None
+        present = self._world.names
+        places = [
+            place for each in self._robots if each.name in present for place in self._places(each)
+        ]
+        return _message(places, time) if places else None
 
-    def _add(self, message: TFMessage, each: SpawnedRobot, time: int) -> None:
+    def _places(self, each: SpawnedRobot) -> Iterator[_Placed]:
         view = self._world.robot(each.name)
         for joint in each.robot.joints:
             if joint.has_position:
-                place = view.pose(joint.parent).inverse() @ view.pose(joint.child)
-                message.transforms.append(_stamped(each, joint, place, time))
+                yield each, joint, view.pose(joint.parent).inverse() @ view.pose(joint.child)
 
 
-def _stamped(each: SpawnedRobot, joint: Joint, place: Transform, time: int) -> TransformStamped:
-    message = TransformStamped()
-    message.header.frame_id = frame_in(each.namespace, joint.parent)
-    message.child_frame_id = frame_in(each.namespace, joint.child)
-    fill_stamp(time, message.header.stamp)
-    translation, rotation = message.transform.translation, message.transform.rotation
-    translation.x, translation.y, translation.z = place.translation
-    rotation.x, rotation.y, rotation.z, rotation.w = place.rotation
-    return message
+def _message(places: Sequence[_Placed], time: int) -> bytes:
+    """Return a tf2_msgs/msg/TFMessage."""
+    out = Writer()
+    out.count(len(places))
+    for each, joint, place in places:
+        out.stamp(time)
+        out.text(frame_in(each.namespace, joint.parent))
+        out.text(frame_in(each.namespace, joint.child))
+        out.doubles((*place.translation, *place.rotation))
+    return out.bytes()

@@ -3,22 +3,20 @@
 """All sensors of all robots of a world: which one measures, and when."""
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
-
-from rclpy.exceptions import InvalidTopicNameException
-from rclpy.node import Node
+from typing import TYPE_CHECKING, TypeAlias
 
 from amr_description.control.contracts import Log, Severity
-from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.errors import AmrError
 from amr_description.model.sensors import WorldSensor
-from amr_description.ros.rclpy_internals import RCLError
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.advertising import Topics
 
 if TYPE_CHECKING:  # a tenth of the simulator's start; most robots have no such sensors
-    from amr_description.sim.ros.sensors.equipment import Equipment
-    from amr_description.sim.ros.sensors.topics import SensorTopics
     from amr_description.sim.sensor_schedule import SensorSchedule
+    from amr_description.simulation.topics.equipment import Equipment
+    from amr_description.simulation.topics.sensor_topics import SensorContext, SensorTopics
+
+    _Sensor: TypeAlias = tuple[SensorSchedule, SensorTopics, SensorContext]
 
 
 class SensorManager:
@@ -31,42 +29,48 @@ class SensorManager:
 
     def __init__(
         self,
-        node: Node,
-        loop_publisher: LoopPublisher,
+        topics: Topics,
         world: MujocoWorld,
         log: Log,
         is_paced: Callable[[], bool],
         has_ticked: Callable[[int], bool] = lambda time: True,
         camera_renderer: str = 'auto',
+        begin_thread: Callable[[], None] | None = None,
     ) -> None:
         """
         Measure and publish from now on, at the end of control cycles.
 
         Args:
-            node: Has the publishers.
-            loop_publisher: Publishes at the end of a cycle.
+            topics: Publish at the end of a cycle.
             world: The simulated world.
             log: Of the simulator.
-            is_paced: See :class:`~amr_description.sim.ros.sensors.worker.SensorWorker`.
+            is_paced: See :class:`~amr_description.simulation.topics.worker.SensorWorker`.
             has_ticked: Whether the controllers have ticked at a time, ns. Sensors measure at
                 ticks, so that the odometry of their instant goes out before.
             camera_renderer: One of :data:`~amr_description.sim.cameras.CHOICES`.
+            begin_thread: What the thread that measures does first; None: there is none.
         """
-        self._node = node
-        self._loop_publisher = loop_publisher
+        self._topics = topics
+        self._begin_thread = begin_thread
         self._world = world
         self._log = log
         self._is_paced = is_paced
         self._has_ticked = has_ticked
         self._camera_renderer = camera_renderer
         self._equipment: Equipment | None = None
-        self._robots: dict[str, tuple[tuple[SensorSchedule, SensorTopics], ...]] = {}
+        self._robots: dict[str, tuple[_Sensor, ...]] = {}
         self._is_requested = False
         self.on_first: Callable[[], None] | None = None
         """Called when the first sensor comes."""
-        loop_publisher.reporters.append(self.report)
+        topics.reporters.append(self.report)
 
-    def add(self, name: str, namespace: str, sensors: Sequence[WorldSensor]) -> None:
+    def add(
+        self,
+        name: str,
+        namespace: str,
+        sensors: Sequence[WorldSensor],
+        since: int | None = None,
+    ) -> None:
         """
         Create the topics of a robot.
 
@@ -74,38 +78,37 @@ class SensorManager:
             name: Of the robot in the world.
             namespace: Of its topics, absolute.
             sensors: Of the robot.
+            since: Which instants are past, ns; None: all up to now.
         """
         if not sensors:
             return
-        from amr_description.sim.ros.sensors.equipment import Equipment, TOPICS
         from amr_description.sim.sensor_schedule import SensorSchedule
+        from amr_description.simulation.topics.equipment import Equipment, TOPICS
 
         if self._equipment is None:
             self._equipment = Equipment(
-                self._node,
-                self._loop_publisher,
+                self._topics,
                 self._world,
                 self._log,
                 self._is_paced,
                 self._camera_renderer,
+                self._begin_thread,
             )
-        context = self._equipment.context(name, namespace)
         if self.on_first is not None:
             self.on_first()
             self.on_first = None
-        now = self._world.time
+        now = self._world.time if since is None else since
         made = []
         for sensor in sensors:
-            before = set(self._node.publishers)  # some of its topics may be there
+            context = self._equipment.context(name, namespace)
             try:
                 topics = TOPICS[type(sensor)](sensor, context)
-            except (AmrError, RCLError, InvalidTopicNameException) as error:
-                for publisher in set(self._node.publishers) - before:
-                    self._node.destroy_publisher(publisher)
+            except AmrError as error:
+                context.withdraw()  # some of its topics may be there
                 text = f"sensor '{sensor.mount.name}' of '{name}' measures nothing: "
-                self._log(Severity.WARN, text + _reason(error))
+                self._log(Severity.WARN, f'{text}{error}')
                 continue
-            made.append((SensorSchedule(sensor.mount.rate, now), topics))
+            made.append((SensorSchedule(sensor.mount.rate, now), topics, context))
         self._robots = self._robots | {name: tuple(made)}
 
     def remove(self, name: str) -> None:
@@ -113,8 +116,8 @@ class SensorManager:
         sensors = self._robots.get(name)
         if sensors is not None:
             self._robots = {key: each for key, each in self._robots.items() if key != name}
-            for _, topics in sensors:
-                topics.destroy()
+            for _, _, context in sensors:
+                context.withdraw()
 
     def stop(self) -> None:
         """Have the control thread wait for no measurement any more."""
@@ -141,17 +144,9 @@ class SensorManager:
         present = self._world.names
         for name, sensors in self._robots.items():
             if name in present:
-                for schedule, topics in sensors:
+                for schedule, topics, _ in sensors:
                     is_due = is_tick and schedule.is_due(time)
                     if is_requested and topics.is_heard:
                         topics.answer(time)
                     elif is_due and topics.is_heard:
                         topics.measure(time)
-
-
-def _reason(error: Exception) -> str:
-    """Say why a sensor has no topics, without the line of C that rcl names, and what would do."""
-    if isinstance(error, AmrError):
-        return str(error)
-    what = ' '.join(map(str.strip, str(error).splitlines()[:2])).partition(', at ')[0]
-    return f'{what}; give it another <topic>, or its robot a namespace'

@@ -19,50 +19,40 @@ The first marker is a DELETEALL, so that a world replaces the one before.
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from geometry_msgs.msg import Point
-from rclpy.node import Node
-from visualization_msgs.msg import Marker, MarkerArray
-
-from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.cdr.serialized import serialized
+from amr_description.messages.definitions import layout_of
+from amr_description.messages.plain import PlainMessage
 from amr_description.model.frames import rotate
-from amr_description.ros.qos import LATCHED
-from amr_description.sim.ros.names import WORLD_FRAME
+from amr_description.sim.engine import Engine
 from amr_description.sim.static_geometry import ShapeKind, visible_shapes, VisibleShape
-from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.names import WORLD_FRAME
 
-TOPIC = '~/world'
+TOPIC, TYPE = '~/world', 'visualization_msgs/msg/MarkerArray'
 INFINITE_WIDTH = 100.0
 """m; the drawn width of an infinite plane."""
 _THICKNESS = 0.002
 """m, of a plane."""
+_MARKER = 'visualization_msgs/msg/Marker'
+_DELETEALL = 3
 _TYPES = {
-    ShapeKind.BOX: Marker.CUBE,
-    ShapeKind.PLANE: Marker.CUBE,
-    ShapeKind.SPHERE: Marker.SPHERE,
-    ShapeKind.CYLINDER: Marker.CYLINDER,
-    ShapeKind.TRIANGLES: Marker.TRIANGLE_LIST,
+    ShapeKind.BOX: 1,
+    ShapeKind.PLANE: 1,
+    ShapeKind.SPHERE: 2,
+    ShapeKind.CYLINDER: 3,
+    ShapeKind.TRIANGLES: 11,
 }
 
 
-class WorldPublisher:
-    """Publishes the static geometry, latched."""
-
-    def __init__(
-        self, node: Node, world: MujocoWorld, loop_publisher: LoopPublisher | None = None
-    ) -> None:
-        """``loop_publisher``: has it recorded with what a run publishes."""
-        publisher = node.create_publisher(MarkerArray, TOPIC, LATCHED)
-        self._publisher = loop_publisher.recorded(publisher) if loop_publisher else publisher
-        self._world = world
-
-    def publish(self) -> None:
-        """Publish it now; no robot is in the world."""
-        self._publisher.publish(markers(visible_shapes(self._world.engine.spec)))
+def world_markers(engine: Engine) -> bytes:
+    """Return the serialized message for the geometry of a world without robots."""
+    return serialized(layout_of(TYPE), markers(visible_shapes(engine.spec)))
 
 
-def markers(shapes: Sequence[VisibleShape]) -> MarkerArray:
+def markers(shapes: Sequence[VisibleShape]) -> PlainMessage:
     """Return the message for these shapes."""
-    message = MarkerArray(markers=[Marker(action=Marker.DELETEALL)])
+    message, first = PlainMessage(TYPE), PlainMessage(_MARKER)
+    first.action = _DELETEALL
+    message.markers = [first]
     message.markers += [_marker(part) for shape in shapes for part in _parts(shape)]
     for number, marker in enumerate(message.markers):
         marker.id = number
@@ -87,15 +77,16 @@ def _parts(shape: VisibleShape) -> Iterator[VisibleShape]:
         )
 
 
-def _marker(shape: VisibleShape) -> Marker:
-    marker = Marker(ns=shape.kind.value, text=shape.name, type=_TYPES[shape.kind])
+def _marker(shape: VisibleShape) -> PlainMessage:
+    marker = PlainMessage(_MARKER)
+    marker.ns, marker.text, marker.type = shape.kind.value, shape.name, _TYPES[shape.kind]
     position, (x, y, z) = shape.position, shape.size
     if shape.kind is ShapeKind.PLANE:
         position = _along_z(shape, -_THICKNESS / 2)
         x, y, z = x or INFINITE_WIDTH, y or INFINITE_WIDTH, _THICKNESS
     elif shape.kind is ShapeKind.TRIANGLES:
         x = y = z = 1.0
-        marker.points = [Point(x=a, y=b, z=c) for a, b, c in shape.points]
+        marker.points = [_point(*point) for point in shape.points]
     marker.scale.x, marker.scale.y, marker.scale.z = x, y, z
     pose = marker.pose
     pose.position.x, pose.position.y, pose.position.z = position
@@ -103,6 +94,12 @@ def _marker(shape: VisibleShape) -> Marker:
     q.x, q.y, q.z, q.w = shape.rotation
     marker.color.r, marker.color.g, marker.color.b, marker.color.a = shape.color
     return marker
+
+
+def _point(x: float, y: float, z: float) -> PlainMessage:
+    point = PlainMessage('geometry_msgs/msg/Point')
+    point.x, point.y, point.z = x, y, z
+    return point
 
 
 def _along_z(shape: VisibleShape, distance: float) -> tuple[float, float, float]:

@@ -9,19 +9,17 @@ It is loaded with the first sensor: this is a tenth of the simulator's imports.
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from rclpy.node import Node
-
 from amr_description.control.contracts import Log
-from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.model.sensors import Camera, ContactSensor, Lidar
 from amr_description.sim.cameras.choice import ChosenRenderer
-from amr_description.sim.ros.sensors.camera import CameraTopics
-from amr_description.sim.ros.sensors.contact import ContactTopics
-from amr_description.sim.ros.sensors.lidar import LidarTopics, ray_budget
-from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-from amr_description.sim.ros.sensors.worker import SensorWorker
 from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.advertising import Topics
+from amr_description.simulation.topics.camera import CameraTopics
+from amr_description.simulation.topics.contact import ContactTopics
+from amr_description.simulation.topics.lidar import LidarTopics, ray_budget
+from amr_description.simulation.topics.sensor_topics import SensorContext, SensorTopics
+from amr_description.simulation.topics.worker import SensorWorker
 
 TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
     Lidar: LidarTopics,
@@ -36,19 +34,18 @@ class Equipment:
 
     def __init__(
         self,
-        node: Node,
-        loop_publisher: LoopPublisher,
+        topics: Topics,
         world: MujocoWorld,
         log: Log,
         is_paced: Callable[[], bool],
         camera_renderer: str,
+        begin_thread: Callable[[], None] | None,
     ) -> None:
-        """Take what :class:`~amr_description.sim.ros.sensors.manager.SensorManager` was given."""
-        self._node = node
-        self._loop_publisher = loop_publisher
+        """Take what the SensorManager was given."""
+        self._topics = topics
         self._world = world
         self._log = log
-        self._worker = SensorWorker(loop_publisher, log, is_paced)
+        self._worker = SensorWorker(topics.followers, log, is_paced, begin_thread)
         self._states = StateCopier(world)
         self._scenes = CopiedScenes()
         self._ray_budget = ray_budget()
@@ -56,10 +53,9 @@ class Equipment:
         """Of the pictures of cameras."""
 
     def context(self, name: str, namespace: str) -> SensorContext:
-        """Return what the sensors of a robot are given, by its name in the world."""
+        """Return what a sensor of a robot is given, by the name of that in the world."""
         return SensorContext(
-            self._node,
-            self._loop_publisher,
+            self._topics,
             self._world,
             self._world.robot(name),
             namespace,

@@ -11,12 +11,18 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 
+from amr_description.cdr.template import template_of
 from amr_description.clock import NANOSECONDS
+from amr_description.messages.definitions import layout_of
+from amr_description.messages.plain import message_like, PlainMessage
 from amr_description.model.sensors import Lidar
-from amr_description.ros.cdr_template import template_of
 from amr_description.sim.lidar import cloud_rays, met_ranges, Scan, scan_angles
+
+SCAN, CLOUD, RANGE = (f'sensor_msgs/msg/{name}' for name in ('LaserScan', 'PointCloud2', 'Range'))
+POINT_FIELD = 'sensor_msgs/msg/PointField'
+UINT16, FLOAT32 = 4, 7
+"""Values of its ``datatype``."""
 
 ScanEncoder: TypeAlias = Callable[[Scan], bytes]
 
@@ -29,7 +35,7 @@ POINT = np.dtype(
     }
 )
 """Fields and layout of the points of gz-sensors, as ros_gz_bridge passes them on."""
-_DATA_TYPES = {'f4': PointField.FLOAT32, 'u2': PointField.UINT16}
+_DATA_TYPES = {'f4': FLOAT32, 'u2': UINT16}
 
 
 def scan_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
@@ -42,13 +48,13 @@ def scan_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
         lidar: The sensor.
         frame: Of the messages.
     """
-    message = LaserScan()
+    message = PlainMessage(SCAN)
     message.header.frame_id = frame
     message.angle_min, message.angle_max, message.angle_increment = scan_angles(lidar.horizontal)
     message.range_min, message.range_max = lidar.range_min, lidar.range_max
     message.ranges = message.intensities = [0.0] * lidar.horizontal.samples
     arrays = ('ranges', 'intensities')
-    template = template_of(message, ('header.stamp', *arrays), blocks=arrays)
+    template = template_of(layout_of(SCAN), message, ('header.stamp', *arrays), blocks=arrays)
     pack = template.pack
     begin, geometry, size, end = template.constants
 
@@ -76,15 +82,15 @@ def points_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     points = np.zeros(shape, POINT)
     points['ring'] = np.arange(shape[0])[:, None]
     rays = cloud_rays(lidar)
-    message = PointCloud2()
+    message = PlainMessage(CLOUD)
     message.header.frame_id = frame
     message.height, message.width = shape
-    message.fields = [_field(name) for name in POINT.names or ()]
+    message.fields = [_field(message, name) for name in POINT.names or ()]
     message.point_step = POINT.itemsize
     message.row_step = POINT.itemsize * shape[1]
     message.data = bytes(points.nbytes)
     changing = ('header.stamp', 'data', 'is_dense')
-    template = template_of(message, changing, blocks=('data',))
+    template = template_of(layout_of(CLOUD), message, changing, blocks=('data',))
     pack = template.pack
     begin, layout, density, end = template.constants
 
@@ -110,7 +116,7 @@ def range_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
         lidar: The sensor.
         frame: Of the messages.
     """
-    message = Range()
+    message = PlainMessage(RANGE)
     message.header.frame_id = frame
     message.radiation_type = lidar.radiation_type
     axes = lidar.horizontal, lidar.vertical
@@ -119,7 +125,7 @@ def range_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     )
     message.min_range, message.max_range = lidar.range_min, lidar.range_max
     message.variance = lidar.noise.stddev**2
-    template = template_of(message, ('header.stamp', 'range'))
+    template = template_of(layout_of(RANGE), message, ('header.stamp', 'range'))
     pack = template.pack
     begin, geometry, end = template.constants
 
@@ -130,8 +136,9 @@ def range_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     return encode
 
 
-def _field(name: str) -> Any:
+def _field(message: PlainMessage, name: str) -> Any:
     fields = POINT.fields
     assert fields is not None, 'points have fields'
     kind, offset = fields[name][:2]
-    return PointField(name=name, offset=offset, datatype=_DATA_TYPES[kind.str[1:]], count=1)
+    datatype = _DATA_TYPES[kind.str[1:]]
+    return message_like(message, POINT_FIELD, name=name, offset=offset, datatype=datatype, count=1)

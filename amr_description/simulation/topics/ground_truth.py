@@ -24,31 +24,27 @@ has these topics; those of the others are below their names.
 
 from collections.abc import Callable
 
-from control_msgs.msg import DynamicJointState
-from nav_msgs.msg import Odometry
-from rclpy.node import Node
-from rclpy.qos import QoSProfile
-
 from amr_description.clock import NANOSECONDS
-from amr_description.control.ros.encoders import encoder_of
-from amr_description.control.ros.loop_publisher import LoopPublisher, LoopTopic
+from amr_description.control.contracts import Port
 from amr_description.control.samples import (
     BodyOdometrySample,
     DynamicJointStateSample,
     DynamicLayout,
     Frames,
 )
-from amr_description.messages.writers import fill_body_odometry, fill_dynamic_joint_state
+from amr_description.messages.encoders import bytes_encoder_of
 from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.sim.engine import Engine
 from amr_description.sim.robot_view import RobotView
-from amr_description.sim.ros.names import ODOM_TOPIC, WHEELS_TOPIC, WORLD_FRAME
 from amr_description.sim.wheel_slip import WheelSlipReader
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.advertising import Topic, Topics
+from amr_description.simulation.topics.names import ODOM_TOPIC, WHEELS_TOPIC, WORLD_FRAME
 
 WHEEL_VALUES = ('contact', 'normal_force', 'slip_along', 'slip_across')
 
-_QOS = QoSProfile(depth=10)
+_ODOMETRY = Port(ODOM_TOPIC, 'nav_msgs/msg/Odometry', sample=BodyOdometrySample)
+_WHEELS = Port(WHEELS_TOPIC, 'control_msgs/msg/DynamicJointState', sample=DynamicJointStateSample)
 
 
 class GroundTruth:
@@ -61,8 +57,7 @@ class GroundTruth:
 
     def __init__(
         self,
-        node: Node,
-        loop_publisher: LoopPublisher,
+        topics: Topics,
         world: MujocoWorld,
         rate: float,
         has_ticked: Callable[[int], bool] = lambda _: False,
@@ -71,22 +66,20 @@ class GroundTruth:
         Publish from now on, at the end of control cycles.
 
         Args:
-            node: Has the publishers.
-            loop_publisher: Publishes at the end of a cycle.
+            topics: Publish at the end of a cycle.
             world: The simulated world.
             rate: Hz of simulated time, at most once a cycle; 0: never.
             has_ticked: Whether the controllers have ticked at a time, ns. In such cycles the
                 instants are those of the rate alone, so that a recording of them does not
                 depend on how time was stepped.
         """
-        self._node = node
-        self._loop_publisher = loop_publisher
+        self._topics = topics
         self._world = world
         self._period = round(NANOSECONDS / rate) if rate else 0
         self._has_ticked = has_ticked
         self._latest = self._interval = self._interval_of_tick = -1
         self._robots: dict[str, _RobotTruth] = {}
-        loop_publisher.reporters.append(self.report)
+        topics.reporters.append(self.report)
 
     def add(self, name: str, namespace: str) -> None:
         """Create the topics of the robot ``name`` of the world, in a namespace."""
@@ -94,13 +87,8 @@ class GroundTruth:
             prefix = f'/{namespace.strip("/")}'.rstrip('/')
             if prefix in {truth.prefix for truth in self._robots.values()}:
                 prefix = f'{prefix}/{name}'
-            truth = _RobotTruth(
-                self._node,
-                self._loop_publisher,
-                self._world.robot(name),
-                self._world.engine,
-                prefix,
-            )
+            robot = self._world.robot(name)
+            truth = _RobotTruth(self._topics, robot, self._world.engine, prefix)
             self._robots = self._robots | {name: truth}
 
     def remove(self, name: str) -> None:
@@ -108,7 +96,7 @@ class GroundTruth:
         truth = self._robots.get(name)
         if truth is not None:
             self._robots = {key: each for key, each in self._robots.items() if key != name}
-            truth.destroy(self._node)
+            truth.withdraw(self._topics)
 
     def restart(self) -> None:
         """Have the next cycle be due; on the control thread."""
@@ -139,8 +127,7 @@ class _RobotTruth:
 
     def __init__(
         self,
-        node: Node,
-        loop_publisher: LoopPublisher,
+        topics: Topics,
         robot: RobotView,
         engine: Engine,
         prefix: str,
@@ -151,29 +138,18 @@ class _RobotTruth:
         self._wheel_slip = WheelSlipReader(engine, robot)
         child_frame = f'{prefix}/{self._base}'.removeprefix('/')
         self._frames = Frames(WORLD_FRAME, child_frame, (), ())
-        self._odom = loop_publisher.topic(
-            node.create_publisher(Odometry, f'{prefix}/{ODOM_TOPIC}', _QOS),
-            encoder_of(BodyOdometrySample, 'nav_msgs/msg/Odometry', fill_body_odometry, Odometry),
-        )
-        self._wheels: LoopTopic | None = None
+        self._odom = _advertised(topics, prefix, _ODOMETRY)
+        self._wheels: Topic | None = None
         joints = self._wheel_slip.joints
         if joints:
-            self._wheels = loop_publisher.topic(
-                node.create_publisher(DynamicJointState, f'{prefix}/{WHEELS_TOPIC}', _QOS),
-                encoder_of(
-                    DynamicJointStateSample,
-                    'control_msgs/msg/DynamicJointState',
-                    fill_dynamic_joint_state,
-                    DynamicJointState,
-                ),
-            )
+            self._wheels = _advertised(topics, prefix, _WHEELS)
             self._layout = DynamicLayout('', joints, (WHEEL_VALUES,) * len(joints))
 
-    def destroy(self, node: Node) -> None:
+    def withdraw(self, topics: Topics) -> None:
         """Remove the topics."""
         for topic in (self._odom, self._wheels):
             if topic is not None:
-                node.destroy_publisher(topic.publisher)
+                topics.withdraw(topic)
 
     def report(self, time: int) -> None:
         """Measure and publish, as far as there are subscribers."""
@@ -186,6 +162,10 @@ class _RobotTruth:
                 for wheel in self._wheel_slip.read()
             )
             self._wheels.send(DynamicJointStateSample(time, values, self._layout))
+
+
+def _advertised(topics: Topics, prefix: str, port: Port) -> Topic:
+    return topics.advertise(f'{prefix}/{port.name}', port.message, bytes_encoder_of(port))
 
 
 def _base_of(robot: Robot) -> str:

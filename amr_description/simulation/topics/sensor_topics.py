@@ -3,29 +3,25 @@
 """The topics of one sensor of one robot: what each kind of sensor implements."""
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
-
-from rclpy.node import Node
+from dataclasses import dataclass, field
 
 from amr_description.control.contracts import Log
-from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.model.sensors import frame_in, SensorMount
 from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView
-from amr_description.sim.ros.sensors.worker import SensorWorker
 from amr_description.sim.sensor_schedule import CycleBudget
 from amr_description.sim.state_copy import CopiedScenes, StateCopier
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.topics.advertising import Encode, Topic, Topics
+from amr_description.simulation.topics.worker import SensorWorker
 
 
 @dataclass(frozen=True, slots=True)
 class SensorContext:
     """What a sensor is given."""
 
-    node: Node
-    """Has the publishers."""
-    loop_publisher: LoopPublisher
-    """Publishes at the end of a cycle, after the transforms of the same instant."""
+    topics: Topics
+    """Publish at the end of a cycle, after the transforms of the same instant."""
     world: MujocoWorld
     robot: RobotView
     """The robot that carries the sensor; its ``seed`` seeds the noise."""
@@ -42,6 +38,20 @@ class SensorContext:
     """The rays that lidars may cast on the control thread in one cycle."""
     renderer: Renderer
     """Makes the pictures of cameras; on the thread of ``worker``."""
+    advertised: list[Topic] = field(default_factory=list)
+    """The topics of this sensor."""
+
+    def advertise(self, name: str, mount: SensorMount, message: str, encode: Encode) -> Topic:
+        """Make a topic of the sensor. Raises AmrError."""
+        topic = self.topics.advertise(self.topic(name, mount), message, encode)
+        self.advertised.append(topic)
+        return topic
+
+    def withdraw(self) -> None:
+        """Remove the topics of the sensor."""
+        for topic in self.advertised:
+            self.topics.withdraw(topic)
+        self.advertised.clear()
 
     def topic(self, name: str, mount: SensorMount) -> str:
         """Return the full name of a topic of a sensor; '' stays ''."""
@@ -56,8 +66,8 @@ class SensorTopics(ABC):
     """
     The topics of one sensor of one robot.
 
-    Made and destroyed on the ROS thread; everything else is called on the control thread, at the
-    end of a cycle.
+    Made by :data:`~amr_description.simulation.topics.equipment.TOPICS`; everything else is called
+    on the control thread, at the end of a cycle.
     """
 
     @property
@@ -87,7 +97,3 @@ class SensorTopics(ABC):
             time: Of this cycle, ns.
         """
         self.measure(time)
-
-    @abstractmethod
-    def destroy(self) -> None:
-        """Remove the topics; nothing is published after that."""

@@ -14,24 +14,20 @@ on it. As in new Gazebo there is no torque.
 from dataclasses import dataclass, replace
 import itertools
 
-from rclpy.qos import QoSProfile
-
 from amr_description.cdr.writer import Writer
 from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import rotate
 from amr_description.model.sensors import ContactSensor
-from amr_description.ros.message_types import message_type
 from amr_description.sim.contact_sensor import SimulatedContacts
 from amr_description.sim.contacts import Contact
-from amr_description.sim.ros.names import WORLD_FRAME
-from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
+from amr_description.simulation.topics.names import WORLD_FRAME
+from amr_description.simulation.topics.sensor_topics import SensorContext, SensorTopics
 
 CONTACTS = 'ros_gz_interfaces/msg/Contacts'
 CONTACTS_STATE = 'gazebo_msgs/msg/ContactsState'
 
 _COLLISION = 5
 """Of ``ros_gz_interfaces/msg/Entity``."""
-_QOS = QoSProfile(depth=10)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,19 +45,14 @@ class ContactTopics(SensorTopics):
     def __init__(self, sensor: ContactSensor, context: SensorContext) -> None:
         """Create the topic; warn of collisions that are not there."""
         self._robot = context.robot
-        self._node = context.node
         self._is_sent_empty = sensor.message == CONTACTS_STATE
         frame = sensor.mount.frame
         is_of_link = sensor.message == CONTACTS_STATE and self._robot.description.has_link(frame)
         self._link = frame if is_of_link else ''
         self._frame_id = context.frame(frame) if is_of_link else WORLD_FRAME
         self._reader = SimulatedContacts(sensor, context.world, context.robot, context.log)
-        message = message_type(sensor.message)
-        self._topic = context.loop_publisher.topic(
-            context.node.create_publisher(
-                message, context.topic(sensor.topic, sensor.mount), _QOS
-            ),
-            _ENCODERS[sensor.message],
+        self._topic = context.advertise(
+            sensor.topic, sensor.mount, sensor.message, _ENCODERS[sensor.message]
         )
 
     @property
@@ -83,10 +74,6 @@ class ContactTopics(SensorTopics):
         if self._link and contacts:
             contacts = self._in_link(contacts)
         self._topic.send(ContactsSample(time, self._frame_id, contacts))
-
-    def destroy(self) -> None:
-        """Remove the topic."""
-        self._node.destroy_publisher(self._topic.publisher)
 
     def _in_link(self, contacts: tuple[Contact, ...]) -> tuple[Contact, ...]:
         """Return contacts in the frame of the link that the messages name."""

@@ -19,7 +19,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from amr_description.sim.ros.sensors.manager import SensorManager
+from amr_description.simulation.topics.sensor_manager import SensorManager
 
 
 class MeasureService:

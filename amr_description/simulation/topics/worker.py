@@ -17,8 +17,6 @@ import time as wall
 
 from amr_description.control.contracts import Log, Severity
 from amr_description.control.plugin_errors import describe, log_traceback
-from amr_description.control.ros.loop_publisher import LoopPublisher
-from amr_description.control.ros.realtime import set_time_slice, USUAL_SLICE
 
 _LOG_PERIOD = 10.0
 """s between two lines of a sensor whose measurements are left out."""
@@ -37,17 +35,23 @@ class SensorWorker:
     """
 
     def __init__(
-        self, loop_publisher: LoopPublisher, log: Log, is_paced: Callable[[], bool]
+        self,
+        followers: list[Callable[[], None]],
+        log: Log,
+        is_paced: Callable[[], bool],
+        begin_thread: Callable[[], None] | None,
     ) -> None:
         """
         Begin measurements at the end of control cycles.
 
         Args:
-            loop_publisher: Tells when a cycle is published.
+            followers: Called when a cycle is published.
             log: Of the simulator.
             is_paced: Whether cycles wait for the wall clock, so that the control thread must not
                 wait for a measurement. While it is False (real-time factor 0, or in a step) time
                 has to wait for measurements, which are all made.
+            begin_thread: What the thread does first; None: there is no thread, and measurements
+                are made on that of the control loop. Then no cycle waits for the wall clock.
         """
         self.log = log
         self.is_paced = is_paced
@@ -58,7 +62,8 @@ class SensorWorker:
         self._thread: threading.Thread | None = None
         self._is_closed = False
         self._at_end: Callable[[], None] = lambda: None
-        loop_publisher.followers.append(self._begin)
+        self._begin_thread = begin_thread
+        followers.append(self._begin)
 
     def task(self, name: str, remedy: str) -> 'SensorTask':
         """
@@ -97,6 +102,9 @@ class SensorWorker:
             at_end: What the thread does last, if it was there.
         """
         self.stop()
+        if self._begin_thread is None:
+            at_end()
+            return
         with self._changed:
             self._at_end = at_end
             self._queue.append(None)
@@ -109,13 +117,22 @@ class SensorWorker:
         if not self._requested:
             return
         requested, self._requested = self._requested, []
+        begin_thread = self._begin_thread
+        if begin_thread is None:
+            for task, measure in requested:
+                task.begin(measure)
+                self._make(task)
+                task.is_busy = False
+            return
         for task, _ in requested:
             self.wait_for(task)  # it began while the control thread did not wait
         with self._changed:
             if self._is_closed:
                 return
             if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name='sensors', daemon=True)
+                self._thread = threading.Thread(
+                    target=self._run, args=(begin_thread,), name='sensors', daemon=True
+                )
                 self._thread.start()
             for task, measure in requested:
                 task.begin(measure)
@@ -125,8 +142,8 @@ class SensorWorker:
             for task, _ in requested:
                 self.wait_for(task)
 
-    def _run(self) -> None:
-        set_time_slice(USUAL_SLICE)  # the control thread, which starts this one, goes first
+    def _run(self, begin: Callable[[], None]) -> None:
+        begin()
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._queue)
@@ -134,18 +151,21 @@ class SensorWorker:
             if task is None:
                 self._at_end()
                 return
-            try:
-                task.make()
-            except Exception as error:  # of one sensor; the others go on
-                self.log(
-                    Severity.ERROR,
-                    f'{task.name} has measured nothing: {describe(error)}',
-                    throttle=_LOG_PERIOD,
-                )
-                log_traceback(self.log, error)
+            self._make(task)
             with self._changed:
                 task.is_busy = False
                 self._changed.notify_all()
+
+    def _make(self, task: 'SensorTask') -> None:
+        try:
+            task.make()
+        except Exception as error:  # of one sensor; the others go on
+            self.log(
+                Severity.ERROR,
+                f'{task.name} has measured nothing: {describe(error)}',
+                throttle=_LOG_PERIOD,
+            )
+            log_traceback(self.log, error)
 
 
 class SensorTask:

@@ -5,35 +5,26 @@ The topics of a lidar or range finder: LaserScan, PointCloud2, Range.
 
 One of a few rays measures on the control thread: 0.15 ms for 360 rays, so that its scan goes out
 in the cycle of its instant. One of many, or whose rays take long as the world has fine meshes,
-measures on the thread of the :class:`~amr_description.sim.ros.sensors.worker.SensorWorker`. Either
-way its bits are the same. Where time waits, only the number of rays counts, so that the order of
-messages does not depend on how fast the machine is.
+measures on the thread of the :class:`~amr_description.simulation.topics.worker.SensorWorker`.
+Either way its bits are the same. Where time waits, only the number of rays counts, so that the
+order of messages does not depend on how fast the machine is.
 """
 
 from collections.abc import Callable
 from functools import partial
 import time as wall
-from typing import Any
 
-from rclpy.exceptions import InvalidHandle
-from rclpy.qos import QoSProfile
-from sensor_msgs.msg import LaserScan, PointCloud2, Range
-
-from amr_description.control.ros.loop_publisher import LoopTopic
 from amr_description.model.sensors import Lidar
 from amr_description.sim.lidar import SimulatedLidar
-from amr_description.sim.ros.sensors.lidar_messages import (
+from amr_description.sim.sensor_schedule import CycleBudget
+from amr_description.sim.state_copy import StateCopy
+from amr_description.simulation.topics.lidar_messages import (
     points_encoder,
     range_encoder,
     scan_encoder,
     ScanEncoder,
 )
-from amr_description.sim.ros.sensors.topics import SensorContext, SensorTopics
-from amr_description.sim.sensor_schedule import CycleBudget
-from amr_description.sim.state_copy import StateCopy
-
-QOS = QoSProfile(depth=10)
-"""Reliable: who subscribes best effort, as SensorDataQoS does, is served as well."""
+from amr_description.simulation.topics.sensor_topics import SensorContext, SensorTopics
 
 MOST_RAYS = 1500
 """What all lidars together may cast on the control thread in one cycle, 0.6 ms in ``warehouse``.
@@ -72,20 +63,18 @@ class LidarTopics(SensorTopics):
         )
         self._lidar = SimulatedLidar(lidar, context.robot)
         frame = context.frame(lidar.mount.frame or lidar.mount.link)
-        kinds: tuple[tuple[str, Any, Callable[[Lidar, str], ScanEncoder]], ...] = (
-            (lidar.scan_topic, LaserScan, scan_encoder),
-            (lidar.points_topic, PointCloud2, points_encoder),
-            (lidar.range_topic, Range, range_encoder),
+        kinds: tuple[tuple[str, str, Callable[[Lidar, str], ScanEncoder]], ...] = (
+            (lidar.scan_topic, 'LaserScan', scan_encoder),
+            (lidar.points_topic, 'PointCloud2', points_encoder),
+            (lidar.range_topic, 'Range', range_encoder),
         )
         self._topics = tuple(
-            self._topic(context.topic(name, lidar.mount), kind, encoder_of(lidar, frame))
+            context.advertise(
+                name, lidar.mount, f'sensor_msgs/msg/{kind}', encoder_of(lidar, frame)
+            )
             for name, kind, encoder_of in kinds
             if name
         )
-
-    def _topic(self, name: str, kind: Any, encode: ScanEncoder) -> LoopTopic:
-        publisher = self._context.node.create_publisher(kind, name, QOS)
-        return self._context.loop_publisher.topic(publisher, encode)
 
     @property
     def is_heard(self) -> bool:
@@ -116,12 +105,4 @@ class LidarTopics(SensorTopics):
         scan = self._lidar.measure(time, body, self._context.scenes.scene(state))
         for topic in self._topics:
             if topic.is_heard:
-                try:
-                    topic.write_aside(scan)
-                except InvalidHandle:  # its robot has been removed meanwhile
-                    topic.is_heard = False
-
-    def destroy(self) -> None:
-        """Remove the topics; nothing is published after that."""
-        for topic in self._topics:
-            self._context.node.destroy_publisher(topic.publisher)
+                topic.write_aside(scan)
