@@ -39,3 +39,7 @@ class BagMessage(NamedTuple):
     """When it was received."""
     publish_time: int
     """When it was sent."""
+
+
+OVERHEAD = 200
+"""Bytes of memory that a message takes beside its data."""

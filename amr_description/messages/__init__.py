@@ -20,5 +20,6 @@ Messages of ROS as plain data, without the packages that ROS has for them.
 ``sensor_writers.py``     … of the broadcasters of sensors, batteries, GPIOs
 ``trajectory_writers.py`` … of joint trajectories
 ``encoders.py``           … as bytes, for what is published in every cycle
+``lifecycle.py``          what a manager says of states, as bytes
 ========================= =========================================================================
 """

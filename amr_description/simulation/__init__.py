@@ -16,6 +16,8 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds
 ``parameters.py``          the parameters of a simulation, which are those of the simulator's node
 ``topics/``                what it publishes: sensors, ground truth, transforms
+``run_recording.py``       begins and ends recordings of a run
+``run_recorder.py``        … records what is published, and the commands, to a bag
 ``tracebacks.py``          which of our frames a failed test shows
 
 ``engine.py``              the engine: world, loop, and robots that come and go with their managers

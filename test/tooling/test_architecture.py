@@ -74,6 +74,7 @@ ARROWS = {
         'controllers',
         'hardware',
         'sim',
+        'bag',
         'cdr',
         'messages',
         'control',

@@ -6,10 +6,7 @@ from collections import deque
 from collections.abc import Mapping
 import threading
 
-from amr_description.bag.storage import BagMessage
-
-OVERHEAD = 200
-"""Bytes of memory that a message takes besides its data."""
+from amr_description.bag.storage import BagMessage, OVERHEAD
 
 
 class MessageCache:

@@ -13,7 +13,7 @@ from collections.abc import Awaitable, Callable, Sequence
 import re
 from typing import Any, TypeVar
 
-from lifecycle_msgs.msg import State, Transition, TransitionEvent
+from lifecycle_msgs.msg import TransitionEvent
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -39,6 +39,7 @@ from amr_description.control.ros.port_servers import (
 )
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.errors import AmrError
+from amr_description.messages.lifecycle import transition_event
 from amr_description.messages.readers import reader_of
 from amr_description.messages.writers import writer_of
 from amr_description.model.robot import Robot
@@ -296,40 +297,9 @@ class NodeHost:
         return run_in_thread(call, self._node.executor, name)
 
 
-_CONFIGURING = State(id=State.TRANSITION_STATE_CONFIGURING, label='configuring')
-_CLEANING_UP = State(id=State.TRANSITION_STATE_CLEANINGUP, label='cleaningup')
-_ACTIVATING = State(id=State.TRANSITION_STATE_ACTIVATING, label='activating')
-_DEACTIVATING = State(id=State.TRANSITION_STATE_DEACTIVATING, label='deactivating')
-_SHUTTING_DOWN = State(id=State.TRANSITION_STATE_SHUTTINGDOWN, label='shuttingdown')
-
-_UNCONFIGURED, _INACTIVE, _ACTIVE, _FINALIZED = (
-    LifecycleState.UNCONFIGURED,
-    LifecycleState.INACTIVE,
-    LifecycleState.ACTIVE,
-    LifecycleState.FINALIZED,
-)
-_BEGUN = {
-    (_UNCONFIGURED, _INACTIVE): (Transition(id=1, label='configure'), _CONFIGURING),
-    (_INACTIVE, _UNCONFIGURED): (Transition(id=2, label='cleanup'), _CLEANING_UP),
-    (_INACTIVE, _ACTIVE): (Transition(id=3, label='activate'), _ACTIVATING),
-    (_ACTIVE, _INACTIVE): (Transition(id=4, label='deactivate'), _DEACTIVATING),
-    (_UNCONFIGURED, _FINALIZED): (Transition(id=5, label='shutdown'), _SHUTTING_DOWN),
-    (_INACTIVE, _FINALIZED): (Transition(id=6, label='shutdown'), _SHUTTING_DOWN),
-    (_ACTIVE, _FINALIZED): (Transition(id=7, label='shutdown'), _SHUTTING_DOWN),
-}
-"""(start, goal) → the transition, and the state in between."""
-
-
 class TransitionEvents:
     """
     ``~/transition_event`` of one node; called on the control thread, as the manager's ``Watch``.
-
-    Every transition makes two messages, into the state in between and out of it::
-
-        unconfigured → configuring   (configure)
-        configuring → inactive       (transition_success)
-
-    Beyond rcl, which leaves them empty, they have the transition itself and its time.
     """
 
     def __init__(self, node: Node, loop_publisher: LoopPublisher) -> None:
@@ -343,30 +313,11 @@ class TransitionEvents:
         self, start: LifecycleState, goal: LifecycleState, reached: LifecycleState | None
     ) -> None:
         """Publish that a transition has begun, or (``reached``) has ended."""
-        transition, between = _BEGUN[start, goal]
-        event = TransitionEvent(timestamp=self._clock.now().nanoseconds)
-        if reached is None:
-            event.transition = transition
-            event.start_state, event.goal_state = _state(start), between
-        else:
-            event.transition = _end_of(transition, succeeded=reached is goal)
-            event.start_state, event.goal_state = between, _state(reached)
+        event = transition_event(self._clock.now().nanoseconds, start, goal, reached)
         # At once, not at the end of the cycle: the node may be gone by then. Where ROS was shut
         # down first, nothing can be published, and the motors still have to be stopped.
         if self._context.ok():
             self._publisher.publish(event)
-
-
-def _state(state: LifecycleState) -> State:
-    return State(id=state, label=state.label)
-
-
-def _end_of(transition: Transition, *, succeeded: bool) -> Transition:
-    """Numbers as in ``lifecycle_msgs``: 10 to 50 for success, one more for failure."""
-    number = 10 * min(transition.id, Transition.TRANSITION_UNCONFIGURED_SHUTDOWN)
-    if succeeded:
-        return Transition(id=number, label='transition_success')
-    return Transition(id=number + 1, label='transition_failure')
 
 
 def node_name(component: str) -> str:

@@ -18,10 +18,10 @@ paused, also publishes its diagnostics once a second.
 """
 
 from array import array
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
-from controller_manager_msgs.msg import ControllerManagerActivity, NamedLifecycleState
+from controller_manager_msgs.msg import ControllerManagerActivity
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from pal_statistics_msgs.msg import Statistic, Statistics, StatisticsNames, StatisticsValues
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -43,9 +43,10 @@ from amr_description.control.introspection import (
 from amr_description.control.ros.encoders import RosForm
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext, LoopThread
-from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
+from amr_description.control.snapshot import ManagerSnapshot
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.messages.encoders import Encoding, filling, TemplateEncoder
+from amr_description.messages.lifecycle import activity, States, states_of
 from amr_description.messages.parts import fill_stamp
 from amr_description.ros.qos import LATCHED
 
@@ -120,30 +121,14 @@ class ActivityTopic:
         self._publisher = loop_publisher.recorded(
             node.create_publisher(ControllerManagerActivity, '~/activity', LATCHED)
         )
-        self._last: ControllerManagerActivity | None = None
+        self._last: tuple[States, States] | None = None
 
     def publish(self, snapshot: ManagerSnapshot) -> None:
         """Publish at once, not at the end of the cycle: after the last cycle there is none."""
-        controllers, components = _states(snapshot.controllers), _states(snapshot.components)
-        last = self._last
-        if last and (last.controllers, last.hardware_components) == (controllers, components):
-            return
-        self._last = ControllerManagerActivity(
-            controllers=controllers, hardware_components=components
-        )
-        self._last.header.stamp = self._clock.now().to_msg()
-        self._publisher.publish(self._last)
-
-
-def _states(
-    entries: Sequence[ControllerSnapshot] | Sequence[ComponentSnapshot],
-) -> list[NamedLifecycleState]:
-    states = []
-    for each in entries:
-        named = NamedLifecycleState(name=each.name)
-        named.state.id, named.state.label = each.state, each.state.label
-        states.append(named)
-    return states
+        states = states_of(snapshot)
+        if states != self._last:
+            self._last = states
+            self._publisher.publish(activity(self._clock.now().nanoseconds, *states))
 
 
 class RegistrySample(NamedTuple):

@@ -17,13 +17,12 @@ QUITTING  the process ends
 
 from collections.abc import Callable, Sequence
 import enum
-from typing import Any
 
 from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.bag.run_description import RunDescription, RunRobot
+from amr_description.bag.run_description import RunDescription
 from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
@@ -36,11 +35,12 @@ from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.loop_timing import LoopProfiler
-from amr_description.sim.ros.run_recording import controllers_text, on_loop, RunRecording
+from amr_description.sim.ros.run_recording import on_loop, RunRecording
 from amr_description.sim.ros.spawned_topics import SpawnedTopics
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.engine import SimulationEngine
 from amr_description.simulation.parameters import SimulationParameters
+from amr_description.simulation.run_recording import describe_run
 from amr_description.simulation.topics.ground_truth import GroundTruth
 from amr_description.simulation.topics.link_transforms import LinkTransforms, SpawnedRobot
 from amr_description.simulation.topics.sensor_manager import SensorManager
@@ -49,10 +49,7 @@ PAUSED_CLOCK_PERIOD = 0.1
 """s of the wall clock between two messages on ``/clock`` while paused."""
 
 
-_OF_THE_PROCESS = {
-    'paused', 'real_time_factor', 'controllers', 'record', 'record_regex', 'record_exclude_regex',
-}  # fmt: skip
-"""Parameters on which no result depends, or that a recorded run has in another way."""
+_PARAMETERS = tuple(specs(SimulationParameters))
 
 
 class SimulationState(enum.IntEnum):
@@ -160,11 +157,7 @@ class Simulation:
             has_ticked=self._has_ticked,
             is_paced=self._is_paced,
             describe=self._describe_run,
-            robots=lambda: [
-                SpawnedRobot(each.name, each.origin.namespace, each.origin.robot)
-                for each in self.entities
-                if each.origin
-            ],
+            robots=self._spawned,
             transforms=LinkTransforms(self.world),
             log=self.log,
         )
@@ -178,29 +171,17 @@ class Simulation:
         self.entities.on_change = on_change
         return recording
 
-    def _describe_run(self) -> RunDescription:
-        robots = tuple(
-            RunRobot(
-                each.name,
-                origin.namespace,
-                origin.pose.translation,
-                origin.pose.rotation,
-                origin.robot.text,
-            )
+    def _spawned(self) -> list[SpawnedRobot]:
+        return [
+            SpawnedRobot(each.name, origin.namespace, origin.robot, origin.pose)
             for each in self.entities
             if (origin := each.origin)
-        )
-        changed: dict[str, Any] = {}
-        for spec in specs(SimulationParameters):
-            value = self._node.get_parameter(spec.name).value
-            is_told = value != spec.default or spec.name == 'camera_renderer'
-            if is_told and spec.name not in _OF_THE_PROCESS:
-                changed[spec.name] = value
-        if self.engine.world_name != SimulationParameters.world:
-            changed['world'] = self.engine.world_name
-        path = self.engine.settings.controllers
-        first = next((each.origin.robot for each in self.entities if each.origin), None)
-        return RunDescription(changed, controllers_text(path, first), robots)
+        ]
+
+    def _describe_run(self) -> RunDescription:
+        values = {each.name: self._node.get_parameter(each.name).value for each in _PARAMETERS}
+        values['controllers'] = self.engine.settings.controllers
+        return describe_run(values.__getitem__, self.engine.world_name, self._spawned())
 
     def _is_paced(self) -> bool:
         """Whether cycles wait for the wall clock: neither at factor 0 nor in a step."""

@@ -32,6 +32,8 @@ class SpawnedRobot(NamedTuple):
     namespace: str
     """Absolute."""
     robot: Robot
+    pose: Transform = Transform()
+    """Where it was spawned: from its root link to the world."""
 
 
 _Placed: TypeAlias = tuple[SpawnedRobot, Joint, Transform]

@@ -33,10 +33,10 @@ from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.reader import BagReader
 from amr_description.bag.ros import recorder
-from amr_description.bag.ros.message_cache import MessageCache, OVERHEAD
+from amr_description.bag.ros.message_cache import MessageCache
 from amr_description.bag.ros.recorder import adapted, Recorder, RecorderOptions
 from amr_description.bag.ros.recorder_services import offer_services, split_publisher
-from amr_description.bag.storage import BagMessage
+from amr_description.bag.storage import BagMessage, OVERHEAD
 from amr_description.bag.topic_filter import TopicFilter
 from amr_description.cli.session import open_session
 from amr_description.errors import BagError

@@ -16,14 +16,15 @@ from tf2_msgs.msg import TFMessage
 
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
-from amr_description.bag.ros.message_cache import OVERHEAD
+from amr_description.bag.storage import OVERHEAD
 from amr_description.control.contracts import Input, Port, Severity
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, LoopTopic
 from amr_description.errors import BagError
 from amr_description.messages.encoders import filling
 from amr_description.ros.cdr_padding import serialize
-from amr_description.sim.ros import run_recorder
-from amr_description.sim.ros.run_recorder import RunOptions, RunRecorder
+from amr_description.sim.ros.run_recorder import RunRecorder
+from amr_description.simulation import run_recorder
+from amr_description.simulation.run_recorder import RunOptions
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
