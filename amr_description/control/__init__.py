@@ -14,6 +14,7 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 
 ``loaded_component.py``      a hardware component inside the manager: lifecycle, read, write
 ``joint_limits.py``          the limits of joints, and how commands are kept within them
+``recorded_commands.py``     which commands of a controller are recorded
 ``resource_manager.py``      all components of a robot, their interfaces, and the claims
 
 ``loaded_controller.py``     a controller inside the manager: lifecycle, interfaces, update

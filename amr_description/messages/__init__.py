@@ -3,18 +3,12 @@
 """
 Messages of ROS as plain data, without the packages that ROS has for them.
 
-``definitions.py`` what the messages are that controllers and sensors use; ``definitions.txt``
-``plain.py``       messages as objects: of defaults, and of what a dict says
-``readers.py``     messages → samples of controllers
-``sent.py``        what is sent to a controller without ROS → samples
-================== ================================================================================
-=======
 ========================= =========================================================================
 ``definitions.py``        what the messages are that controllers and sensors use
 ``plain.py``              messages as objects: of defaults, and of what a dict says
 ``parts.py``              what is written into parts of them: stamps, poses
 ``readers.py``            messages → samples of controllers
-``sent.py``               what is sent to a controller without ROS → samples
+``commands.py``           what is sent to an input: sample, dict or bytes
 ``writers.py``            samples of controllers → messages
 ``dof_writers.py``        … of PID controllers and grippers
 ``sensor_writers.py``     … of the broadcasters of sensors, batteries, GPIOs

@@ -15,6 +15,8 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``api.py``                 what a simulation and its robots can do, wherever they run
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds
 ``parameters.py``          the parameters of a simulation, which are those of the simulator's node
+``published.py``           what it publishes beside its controllers, and the recording of all
+``publishing.py``          … at the end of a cycle, to who records
 ``topics/``                what it publishes: sensors, ground truth, transforms
 ``run_recording.py``       begins and ends recordings of a run
 ``run_recorder.py``        … records what is published, and the commands, to a bag

@@ -21,24 +21,27 @@ from pathlib import Path
 from typing import Any
 
 from amr_description.control.contracts import Input, Severity
+from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError
-from amr_description.messages.sent import sample_of
 from amr_description.model.controller_files import declared_controllers
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.parameters import build
+from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.api import SimulationApi
 from amr_description.simulation.engine import SimulationEngine, Spawned
 from amr_description.simulation.local_manager import LocalHost, LocalManager
 from amr_description.simulation.log_lines import LogLines
 from amr_description.simulation.parameters import SimulationParameters
 from amr_description.simulation.plugin_controllers import start_controllers
+from amr_description.simulation.published import Published
 from amr_description.simulation.readings import Image
 from amr_description.simulation.robot import Robot
 from amr_description.simulation.sensors import Instruments, RobotSensors
 from amr_description.simulation.spawned_controllers import spawn_declared, Topics, topics_of
+from amr_description.simulation.topics.link_transforms import SpawnedRobot
 from amr_description.simulation.tracebacks import is_for_the_test
 
 __tracebackhide__ = is_for_the_test
@@ -57,17 +60,23 @@ class Simulation(SimulationApi[Robot]):
         self._lines = LogLines()
         self._log = self._lines.log_of(_NODE)
         settings = replace(build(SimulationParameters, self._parameters), paused=True)
+        self._settings = settings
         self._engine = SimulationEngine(
             settings,
             self._log,
             _Calls(),
-            lambda world: (world, _NeverPaced(), _Nobody()),
+            self._ports,
             remedy='run() and step() let time go on, reset() begins anew',
         )
         self._loop, self.world = self._engine.loop, self._engine.world
         """The physics; for the model and the state of MuJoCo."""
+        self._published.loop = self._loop
         self._instruments = Instruments(self.world, settings.camera_renderer, self._log)
         stack.callback(self._end)
+
+    def _ports(self, world: MujocoWorld) -> tuple[Stepper, Pacer, Publisher]:
+        self._published = Published(world, self._log, self._settings)
+        return world, _NeverPaced(), self._published.publisher
 
     def _begin(self) -> None:
         """Every robot is there, at time 0."""
@@ -78,6 +87,7 @@ class Simulation(SimulationApi[Robot]):
             ending.callback(self._instruments.close)
             for manager in reversed(self._loop.managers):
                 ending.callback(manager.shut_down, self._loop.time)
+            ending.callback(self._published.close)  # first: their end is not part of the run
 
     # --- robots -------------------------------------------------------------------------------
 
@@ -92,7 +102,7 @@ class Simulation(SimulationApi[Robot]):
         """``name``: of the entity; empty: that of the URDF."""
         engine, log = self._engine, self._log
         robot = engine.read(self._description, name or 'robot_description')
-        host = LocalHost(self._lines, lambda: self.world.time)
+        host = LocalHost(self._lines, lambda: self.world.time, self._published.publisher)
         spawned: Spawned[LocalManager] = run_at_once(
             engine.spawn(host, name, robot, pose, namespace)
         )
@@ -104,10 +114,12 @@ class Simulation(SimulationApi[Robot]):
                 topics = self._start_controllers(manager, translation)
             except BaseException:
                 engine.remove(given)
+                manager.destroy()
                 raise
         log(Severity.INFO, f"Spawned '{given}'")
         view = self.world.robot(given)
         sensors = RobotSensors(self._instruments, view, translation.sensors, inside)
+        self._published.add(SpawnedRobot(given, inside, robot, pose), translation.sensors)
         return Robot(view, namespace, manager, topics, sensors)
 
     def _start_controllers(self, manager: LocalManager, translation: GazeboTranslation) -> Topics:
@@ -129,7 +141,10 @@ class Simulation(SimulationApi[Robot]):
 
     def _delete(self, robot: Robot) -> None:
         robot.close()
+        self._published.remove(robot.name)
         self._engine.remove(robot.name)
+        if robot.manager is not None:
+            robot.manager.destroy()
 
     # --- time ---------------------------------------------------------------------------------
 
@@ -159,6 +174,7 @@ class Simulation(SimulationApi[Robot]):
     def reset(self) -> None:
         """Reset: time 0, robots where they were spawned, odometry at zero."""
         self._require_running()
+        self._published.restart()
         self._engine.reset()
         for robot in self._robots.values():
             robot.forget()
@@ -188,14 +204,16 @@ class Simulation(SimulationApi[Robot]):
         return inputs
 
     def _put(self, topic: str, inputs: Iterable[Input[Any]], message: Any) -> None:
+        from amr_description.messages.commands import command_of  # with samples of all kinds
+
         time, taken = self.world.time, False
         reasons: list[str] = []
         for each in inputs:
-            sample = sample_of(each.port, message, time)
-            reason = each.check(sample, time) if each.check else ''
+            command = command_of(each.port, message, time)
+            reason = each.check(command.sample, time) if each.check else ''
             if reason:
                 reasons.append(reason)
-            elif each.put(sample):
+            elif each.put(command.sample, command.serialized() if each.on_drain else b''):
                 taken = True
         if not taken:
             raise SimulationError(
@@ -234,11 +252,13 @@ class Simulation(SimulationApi[Robot]):
     # --- recordings, log ----------------------------------------------------------------------
 
     def record(self, folder: str | Path) -> None:
-        """Not here: bags are recorded over ROS."""
-        raise SimulationError('a simulation without ROS records no bags yet; one over ROS does')
+        """Record from now on; see the base class."""
+        self._require_running()
+        self._published.record(folder)
 
     def end_recording(self) -> None:
-        """There is none."""
+        """Complete the bag, if there is one."""
+        self._published.end_recording()
 
     @property
     def log(self) -> str:
@@ -283,13 +303,3 @@ class _Calls:
     def wait(self) -> object:
         """Return: nobody else could put a call."""
         return None
-
-
-class _Nobody:
-    """A publisher that nobody hears: what is read is kept by who sends it."""
-
-    def set_clocks(self, time: int) -> None:
-        """There are no nodes."""
-
-    def publish(self, time: int) -> None:
-        """There are no topics."""

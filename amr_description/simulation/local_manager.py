@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.plugin_errors import log_error
-from amr_description.control.snapshot import ControllerSnapshot
+from amr_description.control.snapshot import ControllerSnapshot, ManagerSnapshot
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.bring_up import bring_up
 from amr_description.controller_manager.parameters import ManagerParameters
@@ -15,6 +15,7 @@ from amr_description.controller_manager.plain_parameters import PlainParameters
 from amr_description.controller_manager.requests import ManagerRequests, run_at_once
 from amr_description.controller_manager.spawner import ControllerState, reason_of
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.messages.lifecycle import ACTIVITY, activity, States, states_of
 from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.engine import Arrival
 from amr_description.simulation.log_lines import LogLines
@@ -24,6 +25,7 @@ from amr_description.simulation.plain_controllers import (
     PlainHost,
     SIM_TIME,
 )
+from amr_description.simulation.publishing import LATCHED, PlainPublisher
 
 _Result = TypeVar('_Result')
 _TIMEOUT = 5_000_000_000
@@ -46,6 +48,7 @@ class LocalManager:
         *,
         lines: LogLines,
         time: Callable[[], int],
+        publisher: PlainPublisher,
     ) -> None:
         """
         Read its parameters.
@@ -54,6 +57,7 @@ class LocalManager:
             arrival: Its robot, and how it is called.
             lines: Get what it logs.
             time: Returns the present time, ns.
+            publisher: Of the loop.
 
         Raises:
             ParameterError: A parameter is no good, as an ``update_rate`` of 0.
@@ -61,8 +65,11 @@ class LocalManager:
         self.namespace, arguments = arrival.namespace, arrival.arguments
         self.name = f'{self.namespace.rstrip("/")}/{arrival.manager_name}'
         self._robot, self._hardware = arrival.robot, arrival.hardware
-        self._lines, self._log = lines, lines.log_of(self.name)
-        self._host = PlainHost(self.namespace, lines.log_of, time)
+        self._lines, self._log, self._time = lines, lines.log_of(self.name), time
+        self._host = PlainHost(self.namespace, lines.log_of, time, publisher)
+        self._publisher = publisher
+        self._states: tuple[States, States] | None = None
+        self._activity = publisher.messages(f'{self.name}/activity', ACTIVITY, LATCHED)
         self._asked = 0
         """Lines of log before the last request."""
         store = PlainParameters(self.name, arguments, SIM_TIME)
@@ -88,10 +95,21 @@ class LocalManager:
         self.requests = ManagerRequests(
             self._host, self._log, self.parameters, manager, robot=self._robot
         )
+        manager.on_change = self._publish_activity
+        self._publish_activity(manager.snapshot)
         return manager
 
     def destroy(self) -> None:
-        """It has nothing that would have to be removed."""
+        """Publish nothing any more."""
+        for each in self.served.values():
+            each.destroy()
+        self._publisher.forget([self._activity])
+
+    def _publish_activity(self, snapshot: ManagerSnapshot) -> None:
+        states = states_of(snapshot)
+        if states != self._states:
+            self._states = states
+            self._activity.publish(activity(self._time(), *states))
 
     @property
     def served(self) -> Mapping[str, PlainController]:
@@ -191,13 +209,22 @@ class LocalHost:
     It is a :class:`~amr_description.simulation.engine.ManagerHost`.
     """
 
-    def __init__(self, lines: LogLines, time: Callable[[], int]) -> None:
-        """``lines``: get what managers log; ``time``: returns the present time, ns."""
-        self._lines, self._time = lines, time
+    def __init__(
+        self, lines: LogLines, time: Callable[[], int], publisher: PlainPublisher
+    ) -> None:
+        """
+        Begin without robots.
+
+        Args:
+            lines: Get what managers log.
+            time: Returns the present time, ns.
+            publisher: Of the loop.
+        """
+        self._lines, self._time, self._publisher = lines, time, publisher
 
     def prepare(self, arrival: Arrival) -> LocalManager:
         """Make the manager of a robot. Raises ParameterError."""
-        return LocalManager(arrival, lines=self._lines, time=self._time)
+        return LocalManager(arrival, lines=self._lines, time=self._time, publisher=self._publisher)
 
     async def ask(self, call: Callable[[], _Result]) -> _Result:
         """Make a call: this is the control thread."""

@@ -9,28 +9,67 @@ newest sample of each output. Services and actions are not served: they are ROS'
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, TypeVar
+from typing import Any, TYPE_CHECKING, TypeVar
 
 from amr_description.control.contracts import Controller, Input, Log, Output
-from amr_description.control.loaded_controller import ignore_transition, TransitionCallback
+from amr_description.control.interfaces import LifecycleState
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.controller_manager.plain_parameters import PlainParameters
+from amr_description.messages.encoders import bytes_encoder_of
+from amr_description.messages.lifecycle import TRANSITION_EVENT, transition_event
 from amr_description.model.robot import Robot
 from amr_description.ros_arguments import NodeNames
+from amr_description.simulation.publishing import (
+    metadata_of,
+    PlainInput,
+    PlainPublisher,
+    PlainTopic,
+)
+
+if TYPE_CHECKING:  # its libraries are for who records
+    from amr_description.simulation.run_recorder import RunRecorder
 
 _Result = TypeVar('_Result')
 SIM_TIME = {'use_sim_time': True}
 """What every node of a simulator is given."""
 
 
-class Newest:
-    """The newest sample of one output."""
+class Newest(PlainTopic):
+    """The newest sample of one output, which is recorded, too."""
 
-    def __init__(self, output: Output[Any]) -> None:
-        """Take what is sent from now on."""
-        self.message = output.port.message
+    def __init__(self, name: str, output: Output[Any], publisher: PlainPublisher) -> None:
+        """
+        Take what is sent from now on.
+
+        Args:
+            name: Of the topic.
+            output: Of the controller.
+            publisher: Of the loop.
+        """
+        port = output.port
+        self.message = port.message
+        self._output = output
         self._samples: deque[Any] = deque(maxlen=1)
-        output.sink = self._samples.append  # a call into C, in each cycle
+        metadata = metadata_of(name, port.message, port.qos)
+        super().__init__(metadata, lambda: bytes_encoder_of(port), publisher)
+        self._choose_sink()
+
+    def attach(self, recorder: 'RunRecorder | None') -> None:
+        """Record from now on; None: no more."""
+        super().attach(recorder)
+        self._choose_sink()
+
+    def _choose_sink(self) -> None:
+        keep = self._samples.append  # a call into C, in each cycle
+        if not (self.is_heard or self.is_latched):
+            self._output.sink = keep
+            return
+
+        def keep_and_send(sample: Any) -> None:
+            keep(sample)
+            self.send(sample)
+
+        self._output.sink = keep_and_send
 
     @property
     def sample(self) -> Any | None:
@@ -49,8 +88,6 @@ class PlainController:
     It is a :class:`~amr_description.controller_manager.requests.ServedController`.
     """
 
-    publish_transition: TransitionCallback = staticmethod(ignore_transition)
-
     def __init__(
         self,
         name: str,
@@ -62,6 +99,8 @@ class PlainController:
         robot: Robot | None,
         log: Log,
         all_outputs: dict[str, Newest],
+        publisher: PlainPublisher,
+        time: Callable[[], int],
     ) -> None:
         """
         Make a controller.
@@ -75,6 +114,8 @@ class PlainController:
             robot: Handed to the controller.
             log: Of the controller.
             all_outputs: Those of all controllers of the manager, to which its own are added.
+            publisher: Of the loop.
+            time: Returns the present time, ns.
 
         Raises:
             ParameterError: A parameter has another type, or is out of its bounds.
@@ -85,6 +126,9 @@ class PlainController:
         """By the full names of their topics; so are the outputs."""
         self.outputs: dict[str, Newest] = {}
         self._all_outputs = all_outputs
+        self._publisher, self._time = publisher, time
+        self._recorded: list[Newest | PlainInput] = []
+        self._transitions = publisher.messages(f'{node}/transition_event', TRANSITION_EVENT)
         self._table = controller_class.parameters_type
         self._names = NodeNames(node, arguments)
         self._parameters = PlainParameters(node, arguments, SIM_TIME)
@@ -107,9 +151,13 @@ class PlainController:
         """Find its ports by the names of their topics."""
         self.disconnect()
         for each in self.controller.inputs():
-            self.inputs.setdefault(self._names.resolve(each.port.name), []).append(each)
+            name = self._names.resolve(each.port.name)
+            self.inputs.setdefault(name, []).append(each)
+            self._recorded.append(self._publisher.add(PlainInput(name, each)))
         for output in self.controller.outputs():
-            self.outputs[self._names.resolve(output.port.name)] = Newest(output)
+            name = self._names.resolve(output.port.name)
+            newest = self.outputs[name] = Newest(name, output, self._publisher)
+            self._recorded.append(self._publisher.add(newest))
         self._all_outputs |= self.outputs
 
     def disconnect(self) -> None:
@@ -118,10 +166,20 @@ class PlainController:
             self._all_outputs.pop(topic, None)
         self.inputs.clear()
         self.outputs.clear()
+        self._publisher.forget(self._recorded)
+        self._recorded.clear()
 
     def destroy(self) -> None:
         """Forget its ports."""
         self.disconnect()
+        self._publisher.forget([self._transitions])
+
+    def publish_transition(
+        self, start: LifecycleState, goal: LifecycleState, reached: LifecycleState | None
+    ) -> None:
+        """Publish that a transition has begun, or (``reached``) has ended."""
+        if self._transitions.is_heard:
+            self._transitions.publish(transition_event(self._time(), start, goal, reached))
 
     def subscribed(self, message: str) -> Iterator[str]:
         """Yield the topics that it subscribes to, of a type of messages."""
@@ -144,7 +202,11 @@ class PlainHost:
     """
 
     def __init__(
-        self, namespace: str, log_of: Callable[[str], Log], time: Callable[[], int]
+        self,
+        namespace: str,
+        log_of: Callable[[str], Log],
+        time: Callable[[], int],
+        publisher: PlainPublisher,
     ) -> None:
         """
         Serve no controller yet.
@@ -153,7 +215,9 @@ class PlainHost:
             namespace: Of the manager, absolute.
             log_of: Returns the log of a node, by its full name.
             time: Returns the present time, ns.
+            publisher: Of the loop.
         """
+        self._publisher = publisher
         self._namespace, self._log_of, self._time = namespace, log_of, time
         self.made: dict[str, PlainController] = {}
         """By name."""
@@ -184,6 +248,8 @@ class PlainHost:
             robot=robot,
             log=self._log_of(f'{self._namespace.rstrip("/")}/{name}'),
             all_outputs=self.outputs,
+            publisher=self._publisher,
+            time=self._time,
         )
         self.made[name] = made
         return made

@@ -28,15 +28,16 @@ MOST_LINES_OF_A_FILE = 800
 MOST_LINES_OF_A_FUNCTION = 60
 MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
-# They only fall: a change may lower one; who raises one writes the reason beside it.
+# They only fall: a change may lower one; who raises one writes the reason beside it. The last to
+# raise them was the recording without ROS: cdr/, messages/, simulation/topics/.
 BUDGETS = {
-    'modules': 800,  # sent.py: the engine starts without the samples of all controllers
-    'code lines': 88_408,
-    'small modules of one importer beside them': 43,
-    'class names used twice': 103,
+    'modules': 816,
+    'code lines': 89_160,
+    'small modules of one importer beside them': 45,
+    'class names used twice': 107,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_138,
+    'code lines of helpers in test files': 25_275,
 }
 
 BASE = {
@@ -94,8 +95,6 @@ ARROWS = {
         'bag/ros',
         'control/ros',
         'ros',
-        'cdr',
-        'messages',
         'simulation',
         'sim',
         'control',

@@ -14,6 +14,7 @@ from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
 from amr_description.control.contracts import Input
+from amr_description.control.recorded_commands import each_new
 from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.message_types import type_name
 
@@ -101,15 +102,4 @@ class RecordedInput:
     def attach(self, recorder: MessageRecorder | None) -> None:
         """Record from now on; None: no more."""
         sink = None if recorder is None else recorder.commands_of(self._subscription)
-        if sink is None:
-            self.port.on_drain = None
-            return
-
-        def record(messages: list[bytes]) -> None:
-            latest = b''
-            for message in messages:
-                if message != latest:  # a client that sees no acknowledgement sends once more
-                    sink(message)
-                latest = message
-
-        self.port.on_drain = record
+        self.port.on_drain = None if sink is None else each_new(sink)

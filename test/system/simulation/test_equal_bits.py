@@ -19,6 +19,7 @@ from support.examples import examples
 from support.paths import ROOT
 
 from amr_description import Simulation
+from amr_description.bag.reader import BagReader
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.testing.simulation import Simulation as SimulationOverDds
@@ -135,6 +136,28 @@ def driven(sim, case, course):
 def test_the_same_calls_give_the_same_bits(pair, course):
     case, here, there = pair
     assert driven(here, case, course) == driven(there, case, course)
+
+
+def recorded(folder):
+    """Topic → (time, bytes) of each of its messages."""
+    found = {}
+    with BagReader(folder) as reader:
+        for each in reader.messages():
+            found.setdefault(each.topic, []).append((each.log_time, each.data))
+        return {name: (topic.type, found.get(name)) for name, topic in reader.topics.items()}
+
+
+def test_recordings_are_the_same_byte_for_byte(pair, tmp_path):
+    """Sensors, controllers, managers, transforms, truth, world and run: without exception."""
+    case, *both = pair
+    for sim, name in zip(both, ('here', 'there'), strict=True):
+        sim.reset()
+        sim.record(tmp_path / name)
+        driven(sim, case, [(0.5, 0.2, 0.8, False), (0.0, -0.3, 0.134, True)])
+        sim.end_recording()
+    here, there = (recorded(tmp_path / name) for name in ('here', 'there'))
+    assert here.keys() == there.keys()
+    assert [name for name in here if here[name] != there[name]] == []
 
 
 def test_both_have_the_same_robot(pair):
