@@ -277,7 +277,9 @@ class GraphBackend(GraphObserver):
     async def _simulate(self, request: SimulatorRequest | SetUp | Switch) -> str:
         """Have controllers switched, or a simulator do something; return what was done."""
         if isinstance(request, SetUp):
-            return await self._set_up(request.robot, request.like)
+            return await self._set_up(
+                request.robot, request.like, self._controllers.get(request.like)
+            )
         if isinstance(request, Switch):
             manager = self._connection(request.robot).found.manager
             if manager is None:
@@ -290,6 +292,9 @@ class GraphBackend(GraphObserver):
         if simulator is None:
             known = ', '.join(self._simulators) or 'none'
             raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
+        # Before it is there: a robot in the place of the one that it is like has none yet.
+        like = request.like if isinstance(request, Spawn) else None
+        listed = None if like is None else self._controllers.get(like)
         try:
             if isinstance(request, LoadWorld):
                 spawned = self._monitor.entities.spawned.get(simulator.name, ())
@@ -299,9 +304,13 @@ class GraphBackend(GraphObserver):
             done = await simulator.handle(request)
         finally:
             self._start(self._refresh(simulator))
-        return await self._spawned_by(request, done) if isinstance(request, Spawn) else done
+        return (
+            await self._spawned_by(request, done, listed) if isinstance(request, Spawn) else done
+        )
 
-    async def _spawned_by(self, request: Spawn, done: str) -> str:
+    async def _spawned_by(
+        self, request: Spawn, done: str, listed: Sequence[ControllerInfo] | None
+    ) -> str:
         """Give a spawned robot its description, and the active controllers of one it is like."""
         robot = f'/{request.namespace.strip("/")}'
         if robot not in self._monitor.connections:  # nobody publishes its description yet
@@ -310,13 +319,12 @@ class GraphBackend(GraphObserver):
         if request.like is None:
             return done
         try:
-            active = await self._set_up(robot, request.like)
+            active = await self._set_up(robot, request.like, listed)
         except PartlyDoneError as error:
             raise PartlyDoneError(f'{done}, but {error}', error.again) from error
         return f'{done}; {active}' if active else done
 
-    async def _set_up(self, robot: str, like: str) -> str:
-        listed = self._controllers.get(like)
+    async def _set_up(self, robot: str, like: str, listed: Sequence[ControllerInfo] | None) -> str:
         try:
             return await set_up(self._services, robot, self._connection(like), listed)
         finally:

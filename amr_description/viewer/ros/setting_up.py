@@ -50,7 +50,9 @@ async def set_up(
     if manager is None:
         return ''
     try:
-        names = await activate_controllers(services, manager, await _names(services, like, listed))
+        names = await activate_controllers(
+            services, manager, await _names(services, robot, like, listed)
+        )
     except ViewerError as error:
         again = {'type': SetUp.types[0], 'robot': robot, 'like': like.found.id}
         raise PartlyDoneError(
@@ -60,16 +62,20 @@ async def set_up(
 
 
 async def _names(
-    services: ServiceClients, like: RobotConnection, listed: Sequence[ControllerInfo] | None
+    services: ServiceClients,
+    robot: str,
+    like: RobotConnection,
+    listed: Sequence[ControllerInfo] | None,
 ) -> Sequence[str] | None:
     """Return the active controllers, in the order to activate them in; None: unknown."""
-    if like.found.is_present and like.found.manager is not None:
+    is_another = like.found.id != robot  # in its own place it has none yet
+    if is_another and like.found.is_present and like.found.manager is not None:
         try:
             return await active_controllers(services, like.found.manager)
         except ViewerError:
             if listed is None:
                 raise  # it is there, and will say so later
-    return None if listed is None else _active(listed)
+    return None if listed is None else _active(listed) or None
 
 
 def _active(listed: Iterable[ControllerInfo]) -> list[str]:
