@@ -28,11 +28,11 @@ def python():
     return str(engine.prepared(engine.find_python(os.environ)))
 
 
-def run(python, code, **options):
+def run(python, code, cwd=engine.ROOT, **options):
     environment = engine.environment_of(os.environ)
     command = [python, '-W', 'error', '-c', code]
     return subprocess.run(
-        command, env=environment, cwd=engine.ROOT, text=True, stdout=-1, stderr=-1, **options
+        command, env=environment, cwd=cwd, text=True, stdout=-1, stderr=-1, **options
     )
 
 
@@ -44,12 +44,12 @@ def test_no_package_of_ros_is_there(python):
 
 
 @pytest.mark.parametrize('number', range(len(PAGE.blocks('python'))))
-def test_the_page_runs_as_it_stands(python, number):
+def test_the_page_runs_as_it_stands(python, number, tmp_path):
     block = PAGE.blocks('python')[number]
     if 'testing' in block:  # over ROS
         assert run(python, block).returncode == 1
         return
-    done = run(python, block + IS_FREE)
+    done = run(python, block + IS_FREE, tmp_path)
     assert done.returncode == 0, done.stderr
     if not number:
         assert done.stdout.startswith('it is at 1.000 m, and takes itself to be at 1.000 m\n')
