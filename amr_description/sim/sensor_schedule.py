@@ -29,6 +29,10 @@ class SensorSchedule:
         self._latest = time
         self._count = instants_until(time, rate)
 
+    def restart(self) -> None:
+        """Have time 0 be due, which time goes back to; even if no instant behind it was asked."""
+        self._latest = self._count = -1
+
     def is_due(self, time: int) -> bool:
         """Whether to measure at ``time``, ns; to be asked once in every cycle, in order."""
         latest, self._latest = self._latest, time

@@ -87,6 +87,7 @@ class Published:
             robot.since = BEFORE
         if self._topics is not None:
             self._topics.truth.restart()
+            self._topics.sensors.restart()
             self._topics.recording.restart()
 
     def record(self, folder: str | Path) -> None:

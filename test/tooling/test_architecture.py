@@ -32,7 +32,7 @@ FEW_LINES = 80
 # raise them was the recording without ROS: cdr/, messages/, simulation/topics/.
 BUDGETS = {
     'modules': 816,
-    'code lines': 89_175,
+    'code lines': 89_178,  # sensors begin anew with time
     'small modules of one importer beside them': 45,
     'class names used twice': 107,
     'modules excused from a check of types': 46,

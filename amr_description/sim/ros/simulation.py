@@ -286,6 +286,8 @@ class Simulation:
 
         def reset() -> None:
             self._ground_truth.restart()
+            if time:
+                self._sensors.restart()
             self.recording.restart()
             self.engine.reset(time=time, state=state)
 

@@ -129,6 +129,12 @@ class SensorManager:
         if self._equipment is not None:
             self._equipment.close()
 
+    def restart(self) -> None:
+        """Have all measure at time 0, which time goes back to; on the control thread."""
+        for sensors in self._robots.values():
+            for schedule, _, _ in sensors:
+                schedule.restart()
+
     def request(self) -> None:
         """Have the sensors that are heard measure in the next cycle; on the control thread."""
         self._is_requested = True

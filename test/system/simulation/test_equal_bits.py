@@ -148,20 +148,17 @@ def recorded(folder):
 
 
 def test_recordings_are_the_same_byte_for_byte(pair, tmp_path):
-    """Sensors, controllers, managers, transforms, truth, world and run."""
+    """Sensors, controllers, managers, transforms, truth, world and run: without exception."""
     case, *both = pair
     for sim, name in zip(both, ('here', 'there'), strict=True):
+        sim.reset()
+        sim.step()  # time goes back from the tick of time 0
         sim.reset()
         sim.record(tmp_path / name)
         driven(sim, case, [(0.5, 0.2, 0.8, False), (0.0, -0.3, 0.134, True)])
         sim.end_recording()
     here, there = (recorded(tmp_path / name) for name in ('here', 'there'))
     assert here.keys() == there.keys()
-    for topic in (name for name in here if name.startswith(('/scan', '/camera'))):
-        # Whether sensors measure once more at the instant of a reset is up to what was before.
-        for found in (here, there):
-            kind, messages = found[topic]
-            found[topic] = kind, [each for each in messages if each[0]]
     assert [name for name in here if here[name] != there[name]] == []
 
 

@@ -33,6 +33,14 @@ def test_at_once_after_a_reset():
     assert due(schedule, [50 * MS, 0, 10 * MS]) == [0]
 
 
+def test_at_time_0_although_time_was_0_before():
+    schedule = SensorSchedule(10.0, 0)
+    schedule.restart()
+    assert due(schedule, [0, 10 * MS]) == [0]
+    schedule.restart()
+    assert due(schedule, [0, 50 * MS, 100 * MS]) == [0, 100 * MS]
+
+
 def test_one_that_is_spawned_later_keeps_to_the_grid():
     schedule = SensorSchedule(10.0, 3217 * MS)
     assert due(schedule, [3220 * MS, 3290 * MS, 3300 * MS]) == [3300 * MS]

@@ -148,6 +148,18 @@ def test_a_reset_begins_a_file_and_what_is_not_recorded_costs_nothing(tmp_path):
     assert second['/mujoco_sim/world'][0][0] == 0.0
 
 
+def test_sensors_measure_at_time_0_of_each_run(tmp_path):
+    with Simulation(SENSORS, world='walls', record=tmp_path / 'bag') as sim:
+        for _ in range(3):
+            sim.step()
+            sim.reset()
+        sim.step(51)
+    with BagReader(tmp_path / 'bag') as reader:
+        files = reader.file_paths
+    times = [[time for time, _ in read(file)['/scan']] for file in files]
+    assert times == [[0.0], [0.0], [0.0], [0.0, 0.1]]
+
+
 def test_robots_that_come_and_go_and_controllers_that_change_are_told(tmp_path):
     poses = {'a': Transform(), 'b': Transform((0.0, 2.0, 0.0))}
     with Simulation(URDF, robots=poses, record=tmp_path / 'bag') as sim:
