@@ -7,7 +7,7 @@ from collections.abc import Callable, Coroutine, Mapping, Sequence, Set as Abstr
 from dataclasses import replace
 from pathlib import Path
 import time
-from typing import Any
+from typing import Any, TypeAlias
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.executors import Executor
@@ -78,6 +78,9 @@ _REFRESH_PERIOD = 1.0
 """s between two queries of a simulator, or of a controller manager without ``~/activity``."""
 _STATUS_PERIOD = 0.25
 """s between two messages about the time of a simulator."""
+
+_Controllers: TypeAlias = Mapping[str, Sequence[ControllerInfo]]
+"""The last known ones, by the robot."""
 
 
 class GraphBackend(GraphObserver):
@@ -277,9 +280,7 @@ class GraphBackend(GraphObserver):
     async def _simulate(self, request: SimulatorRequest | SetUp | Switch) -> str:
         """Have controllers switched, or a simulator do something; return what was done."""
         if isinstance(request, SetUp):
-            return await self._set_up(
-                request.robot, request.like, self._controllers.get(request.like)
-            )
+            return await self._set_up(request.robot, request.like, self._controllers)
         if isinstance(request, Switch):
             manager = self._connection(request.robot).found.manager
             if manager is None:
@@ -292,9 +293,7 @@ class GraphBackend(GraphObserver):
         if simulator is None:
             known = ', '.join(self._simulators) or 'none'
             raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
-        # Before it is there: a robot in the place of the one that it is like has none yet.
-        like = request.like if isinstance(request, Spawn) else None
-        listed = None if like is None else self._controllers.get(like)
+        before = dict(self._controllers)  # a robot in the place of another one begins without any
         try:
             if isinstance(request, LoadWorld):
                 spawned = self._monitor.entities.spawned.get(simulator.name, ())
@@ -305,12 +304,10 @@ class GraphBackend(GraphObserver):
         finally:
             self._start(self._refresh(simulator))
         return (
-            await self._spawned_by(request, done, listed) if isinstance(request, Spawn) else done
+            await self._spawned_by(request, done, before) if isinstance(request, Spawn) else done
         )
 
-    async def _spawned_by(
-        self, request: Spawn, done: str, listed: Sequence[ControllerInfo] | None
-    ) -> str:
+    async def _spawned_by(self, request: Spawn, done: str, known: _Controllers) -> str:
         """Give a spawned robot its description, and the active controllers of one it is like."""
         robot = f'/{request.namespace.strip("/")}'
         if robot not in self._monitor.connections:  # nobody publishes its description yet
@@ -319,14 +316,14 @@ class GraphBackend(GraphObserver):
         if request.like is None:
             return done
         try:
-            active = await self._set_up(robot, request.like, listed)
+            active = await self._set_up(robot, request.like, known)
         except PartlyDoneError as error:
             raise PartlyDoneError(f'{done}, but {error}', error.again) from error
         return f'{done}; {active}' if active else done
 
-    async def _set_up(self, robot: str, like: str, listed: Sequence[ControllerInfo] | None) -> str:
+    async def _set_up(self, robot: str, like: str, known: _Controllers) -> str:
         try:
-            return await set_up(self._services, robot, self._connection(like), listed)
+            return await set_up(self._services, robot, self._connection(like), known.get(like))
         finally:
             self._list_controllers(robot)
 
@@ -435,11 +432,9 @@ class GraphBackend(GraphObserver):
             for each in self._monitor.found.simulators
             if each.id in self._simulators and not each.hears_wrenches
         }
+        entity_of = self._monitor.entities.entity_of
         robots = tuple(
-            replace(
-                each,
-                entity=self._monitor.entities.entity_of(each.id, self._urdf_of(each.id), silent),
-            )
+            replace(each, entity=entity_of(each.id, self._urdf_of(each.id), silent))
             for each in robots
         )
         self._infos, self._sensors = robots, sensors
@@ -507,7 +502,6 @@ class GraphBackend(GraphObserver):
                 self._controllers[robot] = controllers.controllers
                 self._executor.create_task(self._set_groups, connection, groups)
                 self.server.publish_now(robot, with_moves(controllers, groups))
-
                 if connection.timeout is None and connection.found.drive_parameters:
                     await self._find_timeout(connection, connection.found.drive_parameters)
 
