@@ -199,14 +199,14 @@ class FindVerb:
 class TypeVerb:
     """Print the types of a name."""
 
-    def __init__(self, kind: Kind, about: str) -> None:
-        self.__doc__, self._kind = about, kind
+    def __init__(self, kind: Kind, about: str, purpose: str = 'type') -> None:
+        """``purpose``: what the help of the name says that it gets."""
+        self.__doc__, self._kind, self._purpose = about, kind, purpose
 
     def add_arguments(self, parser: ArgumentParser) -> None:
         """Add the arguments of the verb."""
         add_graph_arguments(parser)
-        purpose = 'info' if self._kind is ACTION else 'type'  # so the original says
-        self._kind.add_name_argument(parser, purpose)
+        self._kind.add_name_argument(parser, self._purpose)
 
     def main(self, args: Namespace) -> int:
         """Print one type per line; 0, or 1 and nothing if it is not known."""
@@ -367,6 +367,6 @@ SERVICE_LIST = ListVerb(SERVICE, 'Output a list of available services.')
 SERVICE_FIND = FindVerb(SERVICE)
 SERVICE_TYPE = TypeVerb(SERVICE, "Output a service's type.")
 ACTION_LIST = ListVerb(ACTION, 'Output a list of action names.')
-ACTION_TYPE = TypeVerb(ACTION, "Print an action's type.")
+ACTION_TYPE = TypeVerb(ACTION, "Print an action's type.", 'info')  # as of the original
 NODE_LIST = NodesVerb('Output a list of available nodes.', _nodes)
 LIFECYCLE_NODES = NodesVerb('Output a list of nodes with lifecycle.', _lifecycle_nodes)

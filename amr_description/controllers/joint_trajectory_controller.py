@@ -30,14 +30,13 @@ Differences from joint_trajectory_controller 4.x:
 from collections.abc import Sequence
 import math
 from operator import add
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import (
     Action,
     Controller,
     ControllerContext,
-    Goal,
     Input,
     Output,
     Service,
@@ -70,6 +69,7 @@ from amr_description.controllers.joint_trajectory import (
     Trajectory,
 )
 from amr_description.controllers.joint_trajectory_interfaces import (
+    FollowGoal,
     JointHandles,
     JointLayout,
     TrajectoryPorts,
@@ -78,10 +78,6 @@ from amr_description.controllers.joint_trajectory_parameters import JointTraject
 from amr_description.controllers.pid import Pid
 from amr_description.controllers.trajectory_checks import TrajectoryRules
 from amr_description.controllers.trajectory_tolerances import Violation
-
-FollowGoal: TypeAlias = Goal[
-    FollowTrajectoryGoal, FollowTrajectoryFeedback, FollowTrajectoryResult
-]
 
 _INVALID_GOAL = -1
 _PATH_TOLERANCE_VIOLATED = -4

@@ -5,10 +5,12 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 import math
+from typing import TypeAlias
 
 from amr_description.control.contracts import (
     Action,
     ActionPort,
+    Goal,
     Input,
     Output,
     Port,
@@ -65,6 +67,9 @@ _ACTION = ActionPort(
     FollowTrajectoryFeedback,
     FollowTrajectoryResult,
 )
+FollowGoal: TypeAlias = Goal[
+    FollowTrajectoryGoal, FollowTrajectoryFeedback, FollowTrajectoryResult
+]
 
 
 class TrajectoryPorts:

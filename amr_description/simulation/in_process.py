@@ -60,12 +60,11 @@ class Simulation(SimulationApi[Robot]):
         self._lines = LogLines()
         self._log = self._lines.log_of(_NODE)
         settings = replace(build(SimulationParameters, self._parameters), paused=True)
-        self._settings = settings
         self._engine = SimulationEngine(
             settings,
             self._log,
             _Calls(),
-            self._ports,
+            lambda world: self._ports(world, settings),
             remedy='run() and step() let time go on, reset() begins anew',
         )
         self._loop, self.world = self._engine.loop, self._engine.world
@@ -74,8 +73,10 @@ class Simulation(SimulationApi[Robot]):
         self._instruments = Instruments(self.world, settings.camera_renderer, self._log)
         stack.callback(self._end)
 
-    def _ports(self, world: MujocoWorld) -> tuple[Stepper, Pacer, Publisher]:
-        self._published = Published(world, self._log, self._settings)
+    def _ports(
+        self, world: MujocoWorld, settings: SimulationParameters
+    ) -> tuple[Stepper, Pacer, Publisher]:
+        self._published = Published(world, self._log, settings)
         return world, _NeverPaced(), self._published.publisher
 
     def _begin(self) -> None:

@@ -287,7 +287,7 @@ def describe_run(
     changed: dict[str, Any] = {}
     for spec in specs(SimulationParameters):
         value = value_of(spec.name)
-        is_default = value in (spec.default, None) or value != value  # not a number: not given
+        is_default = value == spec.default or value != value  # not a number: not given
         is_told = not is_default or spec.name == 'camera_renderer'
         if is_told and spec.name not in _OF_THE_PROCESS:
             changed[spec.name] = value
