@@ -1,13 +1,12 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is sent to an input without ROS: a sample, a dict in the form of the message, or bytes."""
+"""What is sent to an input without ROS: a sample, or a dict in the form of the message."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-import struct
 from typing import Any
 
-from amr_description.cdr.serialized import fill, serialized
+from amr_description.cdr.serialized import serialized
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Port
 from amr_description.control.dof_samples import DofCommandSample
@@ -76,31 +75,6 @@ def command_of(port: Port, message: Any, time: int) -> Command:
     if stamp is not None and stamp.sec == stamp.nanosec == 0:
         stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
     return Command(port, reader_of(port)(made), made)
-
-
-def recorded_command(port: Port, data: bytes) -> Command:
-    """
-    Return the command of a serialized message, as it is.
-
-    Raises AmrError: It is none of that type, or the definition of that is not here.
-    """
-    return Command(port, *_read(port, plain_message(port.message, data)))
-
-
-def plain_message(name: str, data: bytes) -> PlainMessage:
-    """Return the message of bytes. Raises AmrError, as :func:`recorded_command`."""
-    if name not in texts():
-        raise AmrError(f'the definition of {name} is not in this package')
-    message = PlainMessage(name)
-    try:
-        fill(layout_of(name), data, message, PlainMessage)
-    except (ValueError, struct.error) as error:
-        raise AmrError(f'these bytes are no {name}: {error}') from error
-    return message
-
-
-def _read(port: Port, message: PlainMessage) -> tuple[Any, PlainMessage]:
-    return reader_of(port)(message), message
 
 
 def fill_unstamped_twist(sample: TwistSample, message: Any) -> None:
