@@ -24,7 +24,7 @@ from support.paths import ROOT
 
 PACKAGE = ROOT / 'amr_description'
 HEADER = ['# Copyright 2026 The amr_description authors', '# SPDX-License-Identifier: Apache-2.0']
-MOST_LINES_OF_A_FILE = 800
+MOST_LINES_OF_A_FILE = 600
 MOST_LINES_OF_A_FUNCTION = 60
 MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
@@ -32,12 +32,12 @@ FEW_LINES = 80
 # raise them was the recording without ROS: cdr/, messages/, simulation/topics/.
 BUDGETS = {
     'modules': 816,
-    'code lines': 89_178,  # sensors begin anew with time
+    'code lines': 89_046,  # sensors begin anew with time
     'small modules of one importer beside them': 45,
-    'class names used twice': 107,
+    'class names used twice': 106,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_275,
+    'code lines of helpers in test files': 25_136,
 }
 
 BASE = {
@@ -618,17 +618,10 @@ def code_lines(path: Path) -> int:
         for line in range(node.lineno, node.end_lineno + 1)
         if isinstance(node.value.value, str)
     }
-    blank = {
-        tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT,
-        tokenize.ENDMARKER,
-    }  # fmt: skip
-    with path.open() as file:
-        tokens = [each for each in tokenize.generate_tokens(file.readline)]
     lines = {
-        line
-        for each in tokens
-        if each.type not in blank
-        for line in range(each.start[0], each.end[0] + 1)
+        number
+        for number, line in enumerate(path.read_text().splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith('#')
     }
     return len(lines - docstrings)
 
