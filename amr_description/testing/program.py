@@ -36,8 +36,11 @@ __tracebackhide__ = is_for_the_test
 STOP_TIMEOUT = 15.0
 """s from SIGINT to SIGKILL."""
 
-_SELDOM = range(215, 233)
-"""ROS domains that people seldom choose: above the ephemeral ports of Linux."""
+_SELDOM = range(215, 232)
+"""
+ROS domains that people seldom choose: above the ephemeral ports of Linux. Domain 232, the last
+one, has ports for 63 participants only: those of others would exceed 65535.
+"""
 DOMAINS = (*_SELDOM, *range(1, 101))
 """In this order; the ports of the others are below the ephemeral ones; 0 is the default one."""
 LOCKS = Path('/tmp')

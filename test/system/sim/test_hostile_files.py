@@ -7,6 +7,7 @@ What a xacro file of the user's own may do, it does in a child, which ends.
 """
 
 import os
+import re
 import signal
 import time
 
@@ -92,7 +93,8 @@ def write(tmp_path):
 
 def test_an_expression_without_end_is_ended(client, write):
     reason = client.refused(uri=write(ENDLESS))
-    assert 'no end after 10 s; does an expression of it end?' in reason
+    # After 10 s of a processor; where others leave it less than a sixth of one, after a minute.
+    assert re.search('no end after (10|60) s; does an expression of it end[?]', reason)
 
 
 def test_a_xacro_file_of_another_user_is_not_run(client, write, tmp_path):

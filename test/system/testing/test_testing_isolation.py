@@ -100,7 +100,9 @@ def test_a_robot_that_comes_later_is_not_commanded():
 
 
 def test_a_simulator_that_comes_later_is_not_asked():
-    with Simulation(URDF, activate=[]) as sim, Program.module('mujoco_sim') as other:
+    # It is paused: a time ahead of that of the test would end the simulator of the test.
+    later = ['--ros-args', '-p', 'paused:=true']
+    with Simulation(URDF, activate=[]) as sim, Program.module('mujoco_sim', *later) as other:
         other.expect('waiting for robots')
         sim.wait(lambda: sim.node.count_publishers(RECEIVED) == 2, 'the other simulator')
         for ask in (sim.reset, sim.step):

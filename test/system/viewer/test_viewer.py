@@ -543,7 +543,7 @@ def test_several_robots_come_and_go(host, url):
         host.until(lambda: ids() == ['/r2'])
         host.until(lambda: [r['id'] for r in page.last('layout')['robots']] == ['/r2'])
         with Page(url) as late:
-            host.until(lambda: late.last('layout'))
+            host.until(lambda: late.last('layout') and late.last('model'))
             assert [model['robot'] for model in late.of('model')] == ['/r2']
 
 
