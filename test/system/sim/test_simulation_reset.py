@@ -304,7 +304,6 @@ def test_resets_while_driving_silence_nothing_and_odometry_begins_at_zero(
     turn(sim, SimulationState.STATE_PLAYING)
     for _ in range(count):
         reset_and_drive_on(sim, driver)
-    assert sim.time < 5 * NANOSECONDS
     assert 'is active already' in spawn_controllers(names=['joint_state_broadcaster'])
     client = ManagerClient(sim.node, 'controller_manager', timeout=PATIENCE)
     assert client.switch(deactivate=['diff_drive_controller']) is None
