@@ -36,7 +36,8 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``parameters.py``       tables of parameters: type, default, unit, bounds
 ``former_parameters.py`` parameters of earlier releases, and what is made of them
 ``limited_child.py``    programs with limits of time and memory
-``ownership.py``        who else can change a file
+``ownership.py``        who else can change a file, or may read it
+``trusted_files.py``    which files a request may name
 ``launch_log.py``       what a bring-up has warned of, for what it starts
 ``launch_variables.py`` ``$(var …)`` of launch files in parameters
 ``parameter_files.py``  ROS parameter files: read, searched for a node's sections, written

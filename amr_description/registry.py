@@ -8,11 +8,14 @@ So ``ros2 --help`` and a talker do not import MuJoCo, or controllers that are no
 
 from collections.abc import Mapping
 import importlib
+from importlib.util import find_spec
 import os
+from pathlib import Path
 import sys
 from typing import Any
 
 from amr_description.errors import AmrError
+from amr_description.ownership import changed_by_others
 from amr_description.text import did_you_mean
 
 _MOST_NAMES = 12
@@ -29,6 +32,42 @@ def resolve(target: str) -> Any:
             raise
         found = importlib.import_module(module)
     return getattr(found, attribute)
+
+
+def _runs_something(target: str) -> bool:
+    """
+    Return whether a module has no plugin for sure, and may be a program.
+
+    A request that spawns a robot names modules, and the import of some runs what is in them:
+    ``pip.__main__`` reads the command line, and ends the process.
+    """
+    first, *others = target.partition(':')[0].split('.')
+    return first in sys.stdlib_module_names or '__main__' in others
+
+
+def _changed_by_others(target: str) -> str:
+    """
+    Return why a module of the folder that the program was started in is not to be imported.
+
+    ``python -m`` finds modules there, and in /tmp others put theirs. '': it is from elsewhere.
+    """
+    first = target.partition(':')[0].partition('.')[0]
+    try:
+        spec, here = find_spec(first), Path.cwd()
+    except (ImportError, ValueError, OSError):  # OSError: the folder is gone
+        return ''
+    if spec is None:  # who imports it says so
+        return ''
+    for each in (spec.origin or '', *(spec.submodule_search_locations or ())):
+        path = Path(each)
+        if path.name.startswith('__init__.'):
+            path = path.parent
+        if each and path.parent == here:
+            real = path.resolve()
+            for folder in (real, *real.parents):
+                if reason := changed_by_others(folder):
+                    return reason
+    return ''
 
 
 def _include_overlay(module: str) -> bool:
@@ -90,14 +129,24 @@ class Registry:
     def find(self, name: str) -> Any:
         """Return the class of a name. Raises ``error`` with the known names."""
         target = self._table.get(name) or name.replace('/', ':')
+        if name not in self._table and _runs_something(target):
+            raise self._error(
+                f"{self._kind} '{name}' is not known: that module is of Python itself, or a "
+                'program; package.module/Class of a package of yours will do'
+            )
+        if name not in self._table and (reason := _changed_by_others(target)):
+            raise self._error(
+                f"{self._kind} '{name}' is not loaded from the present folder: {reason}; a folder "
+                'that nobody else can change will do, or a package'
+            )
         try:
             return resolve(target)
-        except Exception as cause:  # a third-party module may raise anything
+        except (Exception, SystemExit) as cause:  # a third-party module may raise anything
             if name in self._table:
                 raise
             raise self._error(self.absence(name, cause)) from cause
 
-    def absence(self, name: str, cause: Exception | None = None) -> str:
+    def absence(self, name: str, cause: BaseException | None = None) -> str:
         """Return, in one line, that a name is not there, and what would do."""
         if name in self._absent:
             return f"{self._kind} '{name}' is not there: {self._absent[name]}"

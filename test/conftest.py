@@ -39,7 +39,7 @@ UNIT = ROOT / 'test' / 'unit'
 # The parts of these are tested too, and benchmarks/ is imported from the checkout.
 sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT)]
 
-pytest_plugins = ['support.stderr_file']
+pytest_plugins = ['support.open_path', 'support.stderr_file']
 preloaded.start_for(program)  # the simulators of tests that are written as users write theirs
 LONGEST_TEST = 600.0
 """s; the longest takes 15 s by itself, and a minute on a busy machine."""

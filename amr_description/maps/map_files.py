@@ -48,6 +48,7 @@ from amr_description.maps.images import Bytes, Image, pgm, png, read_image
 from amr_description.maps.pose import Pose
 from amr_description.parameter_files import load_yaml, YamlError
 from amr_description.text import encodable
+from amr_description.trusted_files import distrust
 
 OCCUPIED_THRESH, FREE_THRESH = 0.65, 0.25
 """Which cells count as occupied and free when a map is saved: the defaults."""
@@ -99,17 +100,25 @@ class SaveParameters:
     free_thresh: float = FREE_THRESH
 
 
-def load_map(yaml_file: Path) -> OccupancyGrid:
+def load_map(yaml_file: Path, *, by_request: bool = False) -> OccupancyGrid:
     """
     Return the map of a ``.yaml`` file and its image.
+
+    Args:
+        yaml_file: the file.
+        by_request: whether somebody else names it: not every file will do then.
 
     Raises:
         MapMetadataError: the ``.yaml`` file cannot be used.
         MapDataError: its image cannot.
         MapError: there is no such file.
     """
+    if by_request and (reason := distrust(yaml_file.expanduser())):
+        raise MapMetadataError(f'{yaml_file} {reason}')
     metadata = load_metadata(yaml_file)
     path = metadata.image
+    if by_request and (reason := distrust(path)):
+        raise MapDataError(f'{path} {reason}')
     try:
         _require_regular(path)
         image = read_image(path.read_bytes())

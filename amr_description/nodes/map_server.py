@@ -76,7 +76,8 @@ class MapServer(LifecycleNode):
         """Make it, unconfigured. Raises ParameterError."""
         super().__init__('map_server')
         self.get_logger().info('Creating')
-        declare(self, MapServerParameters)
+        self._own = declare(self, MapServerParameters).yaml_filename
+        """Who has started the node names it; who sets the parameter later may be anybody."""
         self._is_active = False
         self._map: MapService | None = None
         self._load_service: Service | None = None
@@ -97,8 +98,8 @@ class MapServer(LifecycleNode):
             self.get_logger().error(str(self.fault))
             return _FAILURE
         try:
-            if parameters.yaml_filename:
-                service.take(_load(parameters.yaml_filename))
+            if name := parameters.yaml_filename:
+                service.take(_load(name, by_request=name != self._own))
             else:
                 self.get_logger().info(
                     "yaml-filename parameter is empty, set map through 'load_map'-service"
@@ -162,7 +163,7 @@ class MapServer(LifecycleNode):
             return response
         self.get_logger().info('Handling LoadMap request')
         try:
-            self._map.take(_load(request.map_url))
+            self._map.take(_load(request.map_url, by_request=True))
         except AmrError as error:
             self.get_logger().error(f'Failed to load map yaml file: {request.map_url}: {error}')
             response.result = _result(error)
@@ -173,11 +174,12 @@ class MapServer(LifecycleNode):
         return response
 
 
-def _load(url: str) -> OccupancyGrid:
+def _load(url: str, *, by_request: bool) -> OccupancyGrid:
     """Return the map of a path, or of a URI. Raises AmrError."""
     if not url:
         raise MapError('the name of the .yaml file of a map is asked, and it is empty')
-    return load_map(resolve_uri(url) if '://' in url else Path(url))
+    path = resolve_uri(url) if '://' in url else Path(url)
+    return load_map(path, by_request=by_request)
 
 
 def _result(error: AmrError) -> int:

@@ -68,6 +68,12 @@ class SimulationParameters:
         'Folder of a bag to which the run is recorded from now on, in simulated time and '
         'without loss; empty: end the recording',
     )
+    record_below: str = parameter(
+        '',
+        'Below which folder a bag may be that record names later, when every user of the host can '
+        'set it; empty: the one that the simulator was started in',
+        read_only=True,
+    )
     record_regex: str = parameter(
         '', 'Of the names of topics: which are recorded; empty: all, pictures of cameras, too'
     )

@@ -37,7 +37,8 @@ if TYPE_CHECKING:  # its libraries are for who records
 
 PARAMETER = 'record'
 _OF_THE_PROCESS = {
-    'paused', 'real_time_factor', 'controllers', 'record', 'record_regex', 'record_exclude_regex',
+    'paused', 'real_time_factor', 'controllers', 'record', 'record_below', 'record_regex',
+    'record_exclude_regex',
 }  # fmt: skip
 """Parameters on which no result depends, or that a recorded run has in another way."""
 FILTERS = ('record_regex', 'record_exclude_regex')

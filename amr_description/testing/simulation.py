@@ -62,7 +62,7 @@ class Simulation(SimulationApi[Robot]):
 
     def _start(self, stack: ExitStack) -> None:
         self._domain = domain = stack.enter_context(own_domain())
-        self._simulator = stack.enter_context(simulator(self._parameters))
+        self._simulator = stack.enter_context(simulator({'record_below': '/'} | self._parameters))
         context = self._ros(stack, domain)
         self._lock_step = LockStep(self.node, self._simulator)
         stack.callback(self._forget_lock_step)

@@ -15,7 +15,7 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``service_replies.py``      services from handlers that raise
 ``simulation_services.py``  state, steps, reset, world
 ``spawn_services.py``       spawn, delete, list spawnables
-``trusted_files.py``        which files a request may name
+``source_folders.py``       folders that a request names
 ``entity_services.py``      states, info and bounds of entities; filters
 ``wrench_topics.py``        ``~/wrench``: pushes from outside
 ``posix_regex.py``          the regular expressions of these filters

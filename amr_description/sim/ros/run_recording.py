@@ -19,10 +19,14 @@ from amr_description.simulation.run_recording import (
     pattern,
     RecordedPublisher,
 )
+from amr_description.text import shorten
+from amr_description.trusted_files import distrust_new
 
 if TYPE_CHECKING:  # its libraries are for who records
     from amr_description.sim.ros.run_recorder import RunRecorder
     from amr_description.simulation.run_recorder import RunOptions
+
+_PLACE = 'record_below'
 
 
 class RunRecording(run_recording.RunRecording):
@@ -39,6 +43,7 @@ class RunRecording(run_recording.RunRecording):
         """
         super().__init__(publisher, **options)
         self._node = node
+        self._place = Path(node.get_parameter(_PLACE).value or Path.cwd()).resolve()
         # Who sets the parameter is told whether the recording has begun, or is complete.
         node.add_on_set_parameters_callback(self._on_parameters)
 
@@ -56,10 +61,22 @@ class RunRecording(run_recording.RunRecording):
             for name in given.keys() & set(FILTERS):
                 pattern(name, self._filter(name, given))
             if PARAMETER in given:
-                self.switch(given[PARAMETER], given)
+                self._check(str(given[PARAMETER]))
+                self.switch(str(given[PARAMETER]), given)
         except SimulationError as error:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
+
+    def _check(self, folder: str) -> None:
+        """
+        Raise SimulationError: a recording that begins now may not be there.
+
+        Every user of the host may ask, so only below the folder that who started it has chosen.
+        """
+        if folder and (reason := distrust_new(Path(folder), self._place)):
+            raise SimulationError(
+                f'{PARAMETER}: {shorten(folder)} {reason}, or another {_PLACE} at the start'
+            )
 
 
 def on_loop(

@@ -49,7 +49,8 @@ from amr_description.ros.standing_clock import StandingClockNode
 from amr_description.sim.ros.entity_services import has_tags
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation, SimulationState
-from amr_description.sim.ros.trusted_files import distrust, folder_of
+from amr_description.sim.ros.source_folders import folder_of
+from amr_description.trusted_files import distrust
 
 FEATURES = (
     SimulatorFeatures.NAMED_POSES,
@@ -290,7 +291,8 @@ class WorldServices:
             raise RequestError('uri is empty; file:// or a path will do', response.NO_RESOURCE)
         try:
             path = world_path(_file_of(request.uri))
-            if reason := distrust(path):
+            is_shipped = path.resolve() in {each.resolve() for each in shipped_worlds().values()}
+            if not is_shipped and (reason := distrust(path)):
                 raise SimulationError(f'world {path} {reason}')
             await self._simulation.load_world(str(path))
         except (ResourceError, SimulationError) as error:

@@ -38,9 +38,10 @@ from amr_description.ros.messages import transform_of
 from amr_description.ros.runtime import run_in_thread
 from amr_description.sim.ros.service_replies import create_services, fill_error
 from amr_description.sim.ros.simulation import Simulation
-from amr_description.sim.ros.trusted_files import distrust, folder_of
+from amr_description.sim.ros.source_folders import folder_of
 from amr_description.sim.spawning import SpawnCode
 from amr_description.simulation.topics.names import WORLD_FRAME
+from amr_description.trusted_files import distrust, distrust_argument
 
 FEATURES = (
     SimulatorFeatures.SPAWNING,
@@ -59,6 +60,7 @@ _SUFFIXES = ('.urdf', '.xacro')
 _LIMITS = Limits(seconds=10, memory=2 * 2**30, wall=60.0)
 """Of the expansion of a xacro file; large robots take one or two seconds."""
 _EXPAND = python_command(
+    'from amr_description.trusted_files import guard_reads; guard_reads(); '
     'from amr_description.model.description_file import main; sys.exit(main(sys.argv[1:]))'
 )
 
@@ -170,6 +172,9 @@ class SpawnServices:
     async def _expanded(self, path: Path, query: str) -> str:
         """Return what a xacro file expands to, in a child. Raises DescriptionError."""
         given = parse_qsl(query, keep_blank_values=True)
+        for name, value in given:
+            if reason := distrust_argument(name, value):
+                raise DescriptionError(reason)
         words = [*_EXPAND, str(path), *(f'{name}:={value}' for name, value in given)]
         found: list[Ended | LimitError | OSError] = []
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from html import unescape
 import math
+import os
 from pathlib import Path
 import re
 from stat import S_ISREG
@@ -117,20 +118,30 @@ def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
 
 
 def _read(file: Path) -> bytes:
-    """Read a mesh or image. Raises ResourceError."""
-    suffix = file.suffix.lower()
-    if suffix not in _MESHES | _CONVERTED | _IMAGES:
-        kinds = ', '.join(sorted(_MESHES | _CONVERTED | _IMAGES))
-        raise ResourceError(f'the page draws {kinds}, not {suffix!a}')
+    """
+    Read a mesh or image. Raises ResourceError.
+
+    Who names a link of another kind than the file that it leads to does not want to see a mesh:
+    anybody can publish a description, and whoever opens the page gets its files.
+    """
+    _check_kind(file)
     try:
         status = file.stat()
         if not S_ISREG(status.st_mode):  # a pipe or a device may have no end
             raise ResourceError(f'{file} is no regular file')
+        _check_kind(Path(os.path.realpath(file)))
         if status.st_size > _LARGEST_MESH:
             raise ResourceError(f'it has {status.st_size} bytes, more than {_LARGEST_MESH}')
         return file.read_bytes()
     except (OSError, ValueError) as error:
         raise ResourceError(f'{file}: {getattr(error, "strerror", None) or error}') from error
+
+
+def _check_kind(file: Path) -> None:
+    """Raise ResourceError: it is neither a mesh nor an image, by its name."""
+    suffix, known = file.suffix.lower(), _MESHES | _CONVERTED | _IMAGES
+    if suffix not in known:
+        raise ResourceError(f'the page draws {", ".join(sorted(known))}, not {suffix!a}')
 
 
 def _fixed(joint: Joint) -> FramePose:

@@ -30,9 +30,9 @@ SUCCESS, FAILURE = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FA
 
 
 @pytest.fixture
-def hall(tmp_path):
+def hall(open_path):
     """The .yaml file of a small map."""
-    return save_map(OccupancyGrid(CELLS, 0.05, Pose(-1.0, 2.0, 0.0)), tmp_path / 'hall')[1]
+    return save_map(OccupancyGrid(CELLS, 0.05, Pose(-1.0, 2.0, 0.0)), open_path / 'hall')[1]
 
 
 @pytest.fixture
@@ -134,8 +134,8 @@ def test_topic_and_frame_are_parameters(started, hall):
     assert end.qos_profile.durability.name == 'TRANSIENT_LOCAL'
 
 
-def test_a_map_that_cannot_be_read_is_not_configured_until_it_can(started, hall, tmp_path):
-    server, node = started(f'yaml_filename:={tmp_path}/none.yaml')
+def test_a_map_that_cannot_be_read_is_not_configured_until_it_can(started, hall, open_path):
+    server, node = started(f'yaml_filename:={open_path}/none.yaml')
     assert not change(node, 'configure')
     assert state(node) == 'unconfigured'
     assert 'none.yaml: there is no such file' in str(server.fault)
@@ -162,11 +162,11 @@ def test_without_a_file_the_map_comes_by_load_map(started, hall):
     assert (grid_of(heard_on(node)[0]).cells == CELLS).all()
 
 
-def test_another_map_is_loaded_and_published(started, hall, tmp_path):
+def test_another_map_is_loaded_and_published(started, hall, open_path):
     _, node = started(f'yaml_filename:={hall}', 'autostart_node:=true', make=map_server._make_node)
     messages = heard_on(node)
     other = OccupancyGrid(np.zeros((4, 5), np.int8), 0.1, Pose(0.0, 0.0, 0.0))
-    answer = load(node, save_map(other, tmp_path / 'other')[1])
+    answer = load(node, save_map(other, open_path / 'other')[1])
     assert answer.result == LoadMap.Response.RESULT_SUCCESS
     assert (answer.map.info.width, answer.map.info.height) == (5, 4)
     wait_until(node, lambda: messages[1:] or None, timeout=PATIENCE, of_message=True)
@@ -176,12 +176,32 @@ def test_another_map_is_loaded_and_published(started, hall, tmp_path):
         ('none.yaml', LoadMap.Response.RESULT_MAP_DOES_NOT_EXIST),
         ('', LoadMap.Response.RESULT_MAP_DOES_NOT_EXIST),
         ('package://no_such_package/m.yaml', LoadMap.Response.RESULT_MAP_DOES_NOT_EXIST),
-        (tmp_path / 'hall.pgm', LoadMap.Response.RESULT_INVALID_MAP_METADATA),
+        (open_path / 'hall.pgm', LoadMap.Response.RESULT_INVALID_MAP_METADATA),
     ):
         assert load(node, text).result == result
-    (tmp_path / 'hall.pgm').write_bytes(b'BM')
+    (open_path / 'hall.pgm').write_bytes(b'BM')
     assert load(node, hall).result == LoadMap.Response.RESULT_INVALID_MAP_DATA
     assert asked(node) == answer.map
+
+
+@pytest.mark.parametrize('secret', ['hall.yaml', 'hall.pgm'])
+def test_a_request_names_no_map_that_not_everybody_may_read(started, hall, secret):
+    hall.with_name(secret).chmod(0o600)
+    server, node = started(f'yaml_filename:={hall}')
+    assert change(node, 'configure'), 'who starts the node names any'
+    assert change(node, 'activate')
+    before = asked(node)
+    assert load(node, hall).result == (
+        LoadMap.Response.RESULT_INVALID_MAP_METADATA
+        if secret == hall.name
+        else LoadMap.Response.RESULT_INVALID_MAP_DATA
+    )
+    assert asked(node) == before
+    for transition in ('deactivate', 'cleanup'):
+        assert change(node, transition)
+    server.set_parameters([Parameter('yaml_filename', value=f'{hall.parent}/./{hall.name}')])
+    assert not change(node, 'configure')
+    assert f'not everybody may read {hall.with_name(secret)}' in str(server.fault)
 
 
 def test_it_starts_itself_or_ends_with_the_reason(started, hall, tmp_path):

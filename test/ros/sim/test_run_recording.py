@@ -22,6 +22,7 @@ from amr_description.ros.cdr_padding import serialize
 from amr_description.sim.ros.run_recorder import RunRecorder
 from amr_description.sim.ros.run_recording import RunRecording
 from amr_description.sim.ros.simulation import Simulation
+from amr_description.text import shorten
 
 
 class Transforms:
@@ -42,7 +43,7 @@ class Host:
 
     def __init__(self):
         self.node = Node('test_run_recording')
-        for name in ('record', 'record_regex', 'record_exclude_regex'):
+        for name in ('record', 'record_below', 'record_regex', 'record_exclude_regex'):
             self.node.declare_parameter(name, '')
         self.loop_publisher = ClockedLoopPublisher(self.node)
         self.lines, self.run = [], RunDescription({'seed': 1})
@@ -74,7 +75,8 @@ class Host:
 
 
 @pytest.fixture
-def host():
+def host(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     rclpy.init(args=[])
     host = Host()
     yield host
@@ -94,6 +96,35 @@ def test_a_folder_that_cannot_be_made_is_refused_and_the_recording_goes_on(host,
     assert host.set('record', '') is None
     assert [each.log_time for each in BagReader(tmp_path / 'bag').messages()].count(10) == 1
     assert host.lines[-1][0] == Severity.INFO
+
+
+@pytest.mark.parametrize(
+    'folder',
+    ['/elsewhere/bag', '../bag', 'a/../../bag', 'link/bag', '.', 'circle/bag'],
+)
+def test_who_asks_later_names_a_folder_below_the_one_of_the_start(host, tmp_path, folder):
+    outside = tmp_path.parent / f'{tmp_path.name}-outside'
+    outside.mkdir()
+    (tmp_path / 'link').symlink_to(outside)
+    (tmp_path / 'circle').symlink_to('circle')
+    reason = host.set('record', folder)
+    assert reason.startswith(f'record: {shorten(folder)} is no')
+    assert str(tmp_path) in reason and reason.endswith('or another record_below at the start')
+    assert '\n' not in reason
+    assert list(outside.iterdir()) == []
+    assert host.node.get_parameter('record').value == ''
+    assert 'File name too long' in host.set('record', 'a' * 5000)
+    assert host.set('record', 'below/bag') is None
+    assert host.set('record', '') is None
+    assert (tmp_path / 'below' / 'bag' / 'metadata.yaml').is_file()
+
+
+def test_nor_is_it_where_another_user_could_have_it_lead_elsewhere(host, tmp_path):
+    shared = tmp_path / 'shared'
+    shared.mkdir()
+    shared.chmod(0o777)
+    assert f'others may write to {shared};' in host.set('record', 'shared/bag')
+    assert list(shared.iterdir()) == []
 
 
 def test_a_recording_that_broke_off_is_refused_its_end_once(host, tmp_path, monkeypatch):

@@ -144,6 +144,16 @@ def test_what_has_no_end_is_not_read(tmp_path):
         assert any('is no regular file' in each.text for each in message.findings)
 
 
+@pytest.mark.parametrize('name', ['key.png', 'key.stl', 'key.dae', 'key.glb'])
+def test_a_link_to_a_file_of_another_kind_is_not_served(tmp_path, name):
+    (tmp_path / 'id_rsa').write_text('PRIVATE KEY')
+    (tmp_path / name).symlink_to('id_rsa')
+    described = describe_robot('/', urdf(drawn(f'file://{tmp_path}/{name}')))
+    assert (described.message.meshes, described.files) == ({}, {})
+    assert any("not ''" in each.text for each in described.message.findings)
+    assert 'PRIVATE' not in repr(described)
+
+
 def test_textures_are_served_too(tmp_path):
     (tmp_path / 'wood.png').write_bytes(b'png')
     uri = f'file://{tmp_path}/wood.png'

@@ -79,9 +79,11 @@ def client():
 
 
 @pytest.fixture
-def write(tmp_path):
+def write(open_path):
+    """Write a file that all may read, as those in the folders of pytest may not be."""
+
     def write(text, name='robot.urdf.xacro', owner=None):
-        path = tmp_path / name
+        path = open_path / name
         path.write_text(text)
         if owner is not None:
             need(os.geteuid() == 0, 'only root can give files to another user; run it as root')

@@ -219,12 +219,12 @@ def test_what_is_no_world_is_not_loaded_and_the_present_one_stays(sim, fields, c
     assert sim.do(GetCurrentWorld).world.name == 'empty'
 
 
-def test_a_broken_world_is_not_loaded_either(sim, tmp_path):
+def test_a_broken_world_is_not_loaded_either(sim, open_path):
     spawn_ball(sim)
-    (tmp_path / 'broken.xml').write_text(
+    (open_path / 'broken.xml').write_text(
         '<mujoco><worldbody><geom type="potato"/></worldbody></mujoco>'
     )
-    code, reason = sim.refused(LoadWorld, uri=(tmp_path / 'broken.xml').as_uri())
+    code, reason = sim.refused(LoadWorld, uri=(open_path / 'broken.xml').as_uri())
     assert (code, 'broken.xml' in reason) == (LoadWorld.Response.RESOURCE_PARSE_ERROR, True)
     assert sim.do(GetEntities).entities == ['ball']
 
@@ -519,11 +519,11 @@ def test_what_is_listed_can_be_spawned(sim):
     assert (code, "source '/no/such/folder'" in reason) == (Result.RESULT_NOT_FOUND, True)
 
 
-def test_worlds_are_listed_and_the_present_one_is_among_them(sim, tmp_path):
+def test_worlds_are_listed_and_the_present_one_is_among_them(sim, open_path):
     worlds = sim.do(GetAvailableWorlds).worlds
     assert sim.do(GetCurrentWorld).world in worlds
-    (tmp_path / 'mine.xml').write_text('<mujoco/>')
-    more = sim.do(GetAvailableWorlds, additional_sources=[str(tmp_path)]).worlds
+    (open_path / 'mine.xml').write_text('<mujoco/>')
+    more = sim.do(GetAvailableWorlds, additional_sources=[str(open_path)]).worlds
     assert [world.name for world in more] == [*(world.name for world in worlds), 'mine']
     tagged = TagsFilter(tags=['indoor'])
     assert sim.do(GetAvailableWorlds, filter=tagged).worlds == []

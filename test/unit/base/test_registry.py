@@ -20,9 +20,7 @@ def test_a_name_of_the_table_is_found():
 
 
 def test_a_third_party_class_needs_no_entry():
-    assert Registry('thing', TABLE, ControllerError).find('fractions/Fraction').__name__ == (
-        'Fraction'
-    )
+    assert Registry('thing', TABLE, ControllerError).find('numpy/ndarray').__name__ == 'ndarray'
 
 
 def test_nothing_is_imported_before_it_is_asked_for(monkeypatch):
@@ -34,7 +32,7 @@ def test_nothing_is_imported_before_it_is_asked_for(monkeypatch):
 
 @pytest.mark.parametrize(
     'name',
-    ['nobody.knows/Me', 'pathlib/Nothing', 'pathlib', '', '/', '.rel/Me', 'a/b/c', 'broken/C'],
+    ['nobody.knows/Me', 'numpy/Nothing', 'numpy', '', '/', '.rel/Me', 'a/b/c', 'broken/C'],
 )
 def test_an_unknown_name_is_reported_with_the_known_ones(name, tmp_path, monkeypatch):
     (tmp_path / 'broken.py').write_text('this is no Python\n')
@@ -78,3 +76,42 @@ def test_a_module_of_a_package_of_this_ones_name_is_found(package, tmp_path, mon
 def test_resolve_raises_what_import_raises():
     with pytest.raises(ImportError, match='nobody_knows_me'):
         resolve('nobody_knows_me:Class')
+
+
+@pytest.mark.parametrize(
+    'name', ['this/s', 'subprocess/Popen', 'unittest.__main__/main', 'pip.__main__/_main', 'os/x']
+)
+def test_no_module_is_imported_that_is_a_program_or_pythons_own(name, monkeypatch):
+    monkeypatch.delitem(sys.modules, 'this', raising=False)
+    with pytest.raises(ControllerError, match='is not known: that module is of Python itself'):
+        Registry('thing', TABLE, ControllerError).find(name)
+    assert 'this' not in sys.modules
+
+
+def test_a_module_that_ends_the_process_is_refused(tmp_path, monkeypatch):
+    (tmp_path / 'ending.py').write_text('import sys\nsys.exit(3)\n')
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ControllerError, match=r"thing 'ending/Plugin' .*SystemExit: 3"):
+        Registry('thing', TABLE, ControllerError).find('ending/Plugin')
+
+
+@pytest.mark.parametrize('made', ['theirs.py', 'theirs/__init__.py', 'theirs/deep.py'])
+def test_no_module_of_the_present_folder_is_imported_that_others_can_change(
+    open_path, monkeypatch, made
+):
+    path = open_path / made
+    path.parent.mkdir(exist_ok=True)
+    path.write_text('class deep:\n    Plugin = 3\n\n\nPlugin = 3\n')
+    monkeypatch.chdir(open_path)
+    monkeypatch.syspath_prepend(open_path)
+    monkeypatch.delitem(sys.modules, 'theirs', raising=False)
+    monkeypatch.delitem(sys.modules, 'theirs.deep', raising=False)
+    changed = open_path / made.partition('/')[0]
+    changed.chmod(0o777)
+    name = 'theirs.deep/Plugin' if 'deep' in made else 'theirs/Plugin'
+    registry = Registry('thing', TABLE, ControllerError)
+    with pytest.raises(ControllerError, match=f'others may write to {changed}; a folder'):
+        registry.find(name)
+    assert 'theirs' not in sys.modules
+    changed.chmod(0o755)
+    assert registry.find(name) == 3
