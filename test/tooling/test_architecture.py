@@ -37,7 +37,7 @@ BUDGETS = {
     'class names used twice': 106,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_147,
+    'code lines of helpers in test files': 25_276,  # the client of another user
 }
 
 BASE = {
