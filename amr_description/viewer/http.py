@@ -46,6 +46,10 @@ CONTENT_TYPES = {
 }
 """By suffix; no other files are served."""
 _INDEX = '/index.html'
+_MOST_UNREAD = 64
+"""Answers that nobody has read; when there are more, the connection of the oldest is closed."""
+_MOST_UNREAD_BYTES = 256 * 1024 * 1024
+"""Of those, as many as the largest mesh has."""
 _SINGLE_HEADERS = ('Host', 'Origin', 'Cookie', 'If-None-Match')
 """Headers that may occur once: two parsers could use different ones."""
 
@@ -151,6 +155,29 @@ class StaticFiles:
         }
 
 
+class UnreadAnswers:
+    """
+    The connections whose answers nobody has read yet, which memory holds.
+
+    Who asks 300 times for the largest file and reads nothing is to cost no more than who reads.
+    """
+
+    def __init__(self) -> None:
+        self._connections: dict[ServerConnection, None] = {}
+
+    def make_room(self, connection: ServerConnection) -> None:
+        """Let the oldest go while there are too many; this one is answered next."""
+        waiting = {each: each.transport.get_write_buffer_size() for each in self._connections}
+        self._connections = {each: None for each, size in waiting.items() if size}
+        for each in list(self._connections):
+            size = sum(waiting[each] for each in self._connections)
+            if len(self._connections) < _MOST_UNREAD and size < _MOST_UNREAD_BYTES:
+                break
+            each.transport.abort()
+            del self._connections[each]
+        self._connections[connection] = None
+
+
 class HttpFiles:
     """Responds to requests for files; passes those for the WebSocket on."""
 
@@ -160,6 +187,8 @@ class HttpFiles:
         self._static = static
         self._mesh = mesh
         self._access = access
+        self._unread = UnreadAnswers()
+        self._reading = asyncio.Lock()
 
     async def respond(self, connection: ServerConnection, request: Request) -> Response | None:
         """Return the response; None: the request continues as a WebSocket handshake."""
@@ -179,6 +208,7 @@ class HttpFiles:
             if path == '/':
                 return _text(HTTPStatus.SERVICE_UNAVAILABLE, _NOT_BUILT)
             return _text(HTTPStatus.NOT_FOUND, f'there is no {path!a} here')
+        self._unread.make_room(connection)
         response = _file(content, request, is_immutable=path.startswith(MESH_PATH))
         cookie = self._access.new_cookie(request.path, request.headers)
         if cookie is not None:
@@ -191,7 +221,10 @@ class HttpFiles:
             return await asyncio.to_thread(self._static.get, file, accepted)
         name = path.removeprefix(MESH_PATH)
         found = self._mesh(name)
-        return await asyncio.to_thread(_read_mesh, name, found) if found else None
+        if not found:
+            return None
+        async with self._reading:  # one in memory, beside those that are sent
+            return await asyncio.to_thread(_read_mesh, name, found)
 
 
 def _accepted(request: Request) -> set[str]:

@@ -4,6 +4,7 @@
 
 from contextlib import ExitStack, suppress
 import http.client
+from pathlib import Path
 import re
 import signal
 import socket
@@ -257,6 +258,41 @@ def test_two_hundred_idle_sockets_keep_nobody_out(url, page):
         idle[0].settimeout(PATIENCE)
         with suppress(ConnectionError):
             assert idle[0].recv(1) == b''  # the oldest had to go
+
+
+def resident(program):
+    """MB of memory."""
+    status = Path(f'/proc/{program.process.pid}/status').read_text()
+    return int(re.search(r'VmRSS:\s+(\d+)', status)[1]) / 1024
+
+
+def test_who_reads_no_answer_costs_no_more_than_some_that_do(program, url, page):
+    size = len(ask(url, path='/main.js', Accept_Encoding='identity')[2]) / 2**20
+    before = peak = resident(program)
+    with ExitStack() as stack:
+        unread = []
+        for _ in range(300):
+            each = stack.enter_context(socket.socket())
+            each.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            each.settimeout(PATIENCE)
+            each.connect(address(url))
+            each.sendall(b'GET /main.js HTTP/1.1\r\nHost: localhost\r\n\r\n')
+            each.recv(1)  # it is being answered
+            unread.append(each)
+            peak = max(peak, resident(program))
+        assert ask(url, path='/main.js')[0] == 200
+        assert peak - before < 110 * size, 'of 300 answers'
+        assert complete(unread[-1])
+        assert not complete(unread[0]), 'the oldest had to go'
+
+
+def complete(client):
+    """Whether the rest of an answer comes."""
+    try:
+        with client.makefile('rb') as stream:
+            return len(stream.read()) > 100_000
+    except ConnectionError:
+        return False
 
 
 def test_too_many_pages_are_told_why(url, page):
