@@ -78,9 +78,13 @@ def inherited(arguments: Sequence[str], *, with_parameters: bool = True) -> list
     return kept
 
 
+_KINDS = _TOPIC, _SERVICE = 'rostopic://', 'rosservice://'
+"""In front of a rule that is for one kind of names only."""
+
+
 class NodeNames:
     """
-    The full names of what a node calls its topics, as rcl expands and remaps them.
+    The full names of what a node calls its topics and services, as rcl expands and remaps them.
 
     Of the rules of its ROS arguments the first that matches counts.
     """
@@ -95,20 +99,28 @@ class NodeNames:
         """
         self._node = node
         self._namespace, _, name = node.rpartition('/')
-        self._rules: list[tuple[str, str]] = []
+        self._rules: list[tuple[str, str, str]] = []
         for flag, *value in _flags(arguments):
             if flag not in _REMAPS or not value:
                 continue
-            limit, rule = _limited(value[0].replace('rostopic://', ''))
+            kind = next((each for each in _KINDS if each in value[0]), '')
+            limit, rule = _limited(value[0].replace(kind, ''))
             before, sign, after = rule.partition(':=')
             if sign and limit in ('', name) and not before.startswith('__'):
-                self._rules.append((self.expanded(before), after))
+                self._rules.append((kind, self.expanded(before), after))
 
     def resolve(self, topic: str) -> str:
         """Return the full name of a topic."""
-        full = self.expanded(topic)
-        for before, after in self._rules:
-            if before == full:
+        return self._resolve(topic, _TOPIC)
+
+    def resolve_service(self, service: str) -> str:
+        """Return the full name of a service; those of actions rcl does not remap."""
+        return self._resolve(service, _SERVICE)
+
+    def _resolve(self, name: str, kind: str) -> str:
+        full = self.expanded(name)
+        for only, before, after in self._rules:
+            if before == full and only in ('', kind):
                 return self.expanded(after)
         return full
 

@@ -257,9 +257,9 @@ class Goal(Generic[Request, Feedback, Result]):
     def __init__(self, request: Request) -> None:
         self.request = request
         self.is_cancel_requested = False
-        """Set on the ROS thread. The controller ends the goal when it sees it, as it likes."""
+        """Set by the client. The controller ends the goal when it sees it, as it likes."""
         self.feedback: Feedback | None = None
-        """The newest that has not been published yet."""
+        """The newest; over ROS, that has not been published yet."""
         self.outcome: tuple[GoalStatus, Result | None] | None = None
         """Set once; a result of None becomes a message of defaults."""
 
@@ -315,6 +315,12 @@ class Action(Generic[Request, Feedback, Result]):
         self._capacity = capacity
         self._waiting: deque[Goal[Request, Feedback, Result]] = deque()
         self._live: list[Goal[Request, Feedback, Result]] = []
+
+    def refusal(self, request: Request, time: int) -> str:
+        """Return why a goal is rejected at ``time``, ns; '': it is accepted."""
+        if not self.is_open:
+            return "Can't accept new action goals. Controller is not running."
+        return self.check(request, time)
 
     def put(self, goal: Goal[Request, Feedback, Result]) -> bool:
         """Queue an accepted goal; return False if the action is closed, which leaves it alone."""

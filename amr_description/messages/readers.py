@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Port
+from amr_description.control.contracts import ActionPort, Port, ServicePort
 from amr_description.control.dof_samples import DofCommandSample, GripperGoal, SetBoolRequest
 from amr_description.control.samples import CommandsSample, EmptySample, FlagSample, TwistSample
 from amr_description.control.sensor_samples import InterfaceGroup, InterfaceGroupsSample
@@ -172,6 +172,21 @@ READERS: Mapping[Key, Callable[[Any], Any]] = {
     (TwistSample, 'geometry_msgs/msg/Twist'): unstamped_twist_sample,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): twist_sample,
 }
+
+
+def part_of(port: ServicePort | ActionPort, part: str) -> Port:
+    """
+    Return a part of a service or an action as the port whose converter it needs.
+
+    Args:
+        port: Of the service or action.
+        part: ``request`` or ``response``; ``goal``, ``feedback`` or ``result``.
+    """
+    kind = port.service if isinstance(port, ServicePort) else port.action
+    converter, message = getattr(port, part), f'{kind}_{part.capitalize()}'
+    if isinstance(converter, str):
+        return Port(port.name, message, convert=converter)
+    return Port(port.name, message, sample=converter)
 
 
 def reader_of(port: Port) -> Callable[[Any], Any]:

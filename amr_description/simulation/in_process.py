@@ -20,7 +20,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from amr_description.control.contracts import Input, Severity
+from amr_description.control.contracts import Action, Goal, Input, Service, Severity
 from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
@@ -49,6 +49,8 @@ __tracebackhide__ = is_for_the_test
 _NODE = '/mujoco_sim'
 MAX_SIDE = 8192
 """Pixels, of a picture."""
+NO_FIELDS: Mapping[str, Any] = {}
+_TAKES = {Input: 'subscribes to', Service: 'has the service', Action: 'has the action'}
 
 
 class Simulation(SimulationApi[Robot]):
@@ -120,8 +122,9 @@ class Simulation(SimulationApi[Robot]):
         log(Severity.INFO, f"Spawned '{given}'")
         view = self.world.robot(given)
         sensors = RobotSensors(self._instruments, view, translation.sensors, inside)
-        self._published.add(SpawnedRobot(given, inside, robot, pose), translation.sensors)
-        return Robot(view, namespace, manager, topics, sensors)
+        known = SpawnedRobot(given, inside, robot, pose)
+        self._published.add(known, translation.sensors)
+        return Robot(view, known, namespace, manager, topics, sensors)
 
     def _start_controllers(self, manager: LocalManager, translation: GazeboTranslation) -> Topics:
         """Start what stands for plugins, then the controllers; return the topics of all."""
@@ -180,7 +183,7 @@ class Simulation(SimulationApi[Robot]):
         for robot in self._robots.values():
             robot.forget()
 
-    # --- topics -------------------------------------------------------------------------------
+    # --- topics, services, actions, frames -----------------------------------------------------
 
     def send_all(self, messages: Mapping[str, Any]) -> None:
         """
@@ -188,21 +191,82 @@ class Simulation(SimulationApi[Robot]):
 
         A message is a sample, or a dict in the form of the message.
         """
-        self._require_running()
-        found = {topic: self._inputs_of(topic) for topic in messages}  # before any is sent
+        found = {topic: self._ports_of(Input, topic) for topic in messages}  # before any is sent
         for topic, inputs in found.items():
             self._put(topic, inputs, messages[topic])
 
-    def _inputs_of(self, topic: str) -> list[Input[Any]]:
-        """Return the inputs of a topic. Raises SimulationError: there are none."""
-        full = topic if topic.startswith('/') else f'/{topic}'
-        inputs = [each for robot in self._robots.values() for each in robot.inputs(full)]
-        if not inputs:
-            known = [name for robot in self._robots.values() for name in robot.subscribed]
+    def call(self, service: str, request: Any = NO_FIELDS) -> Any:
+        """
+        Call a service of a controller; return its response, a sample. No time passes.
+
+        Args:
+            service: Its name.
+            request: A sample, or a dict in the form of the request.
+
+        Raises:
+            SimulationError: No controller has it, or its controller cannot answer.
+            AmrError: A value of the request does not fit.
+        """
+        (port, *_), sample = self._asked(Service, service, 'request', request)
+        try:
+            return port.answer(sample)
+        except Exception as error:  # a third party's
+            reason = f"Could not answer '{service}': {describe(error)}"
+            self._log(Severity.ERROR, reason)
+            raise SimulationError(reason) from error
+
+    def send_goal(self, action: str, goal: Any = NO_FIELDS) -> Goal[Any, Any, Any]:
+        """
+        Send a goal to an action of a controller, which follows it while time passes.
+
+        Args:
+            action: Its name.
+            goal: A sample, or a dict in the form of the goal.
+
+        Returns:
+            The accepted goal: ``is_live`` until ``outcome`` has its status and result;
+            ``feedback`` is the newest. ``is_cancel_requested = True`` asks for its end.
+
+        Raises:
+            SimulationError: No controller has it, or its controller rejects the goal.
+            AmrError: A value of the goal does not fit.
+        """
+        (port, *_), sample = self._asked(Action, action, 'goal', goal)
+        try:
+            reason = port.refusal(sample, self.world.time)
+        except Exception as error:  # a third party's
+            reason = f"Cannot accept a goal of '{action}': {describe(error)}"
+        if reason:
+            self._log(Severity.ERROR, reason)
+            raise SimulationError(f"the goal for '{action}' is rejected: {reason}")
+        accepted: Goal[Any, Any, Any] = Goal(sample)
+        port.put(accepted)
+        return accepted
+
+    def _asked(self, kind: type, name: str, part: str, message: Any) -> tuple[list[Any], Any]:
+        """Return the ports of a service or action, and the sample that one of them is asked."""
+        from amr_description.messages.commands import command_of  # with samples of all kinds
+        from amr_description.messages.readers import part_of
+
+        ports = self._ports_of(kind, name)
+        return ports, command_of(part_of(ports[0].port, part), message, self.world.time).sample
+
+    def transform(self, target: str, source: str) -> Transform:
+        """Return the pose of a frame in another one; see :meth:`Robot.transform`."""
+        return self.robot.transform(target, source)
+
+    def _ports_of(self, kind: type, name: str) -> list[Any]:
+        """Return the ports of a name, one at least. Raises SimulationError."""
+        self._require_running()
+        full = name if name.startswith('/') else f'/{name}'
+        robots = self._robots.values()
+        found = [port for robot in robots for port in robot.ports(kind, full)]
+        if not found:
+            known = ', '.join(each for robot in robots for each in robot.names_of(kind))
             raise SimulationError(
-                f"no controller subscribes to '{full}'; there are: {', '.join(known) or 'none'}"
+                f"no controller {_TAKES[kind]} '{full}'; there are: {known or 'none'}"
             )
-        return inputs
+        return found
 
     def _put(self, topic: str, inputs: Iterable[Input[Any]], message: Any) -> None:
         from amr_description.messages.commands import command_of  # with samples of all kinds

@@ -1,17 +1,17 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Controllers without nodes: their ports by the names that their topics would have.
+Controllers without nodes: their ports by the names that topics, services and actions would have.
 
 What is sent to a topic goes into the inputs of that name, what a controller publishes is kept, the
-newest sample of each output. Services and actions are not served: they are ROS's.
+newest sample of each output. Who calls a service, or sends a goal, does so by the port, too.
 """
 
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TYPE_CHECKING, TypeVar
 
-from amr_description.control.contracts import Controller, Input, Log, Output
+from amr_description.control.contracts import Action, Controller, Input, Log, Output, Service
 from amr_description.control.interfaces import LifecycleState
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.controller_manager.plain_parameters import PlainParameters
@@ -46,8 +46,7 @@ class Newest(PlainTopic):
             output: Of the controller.
             publisher: Of the loop.
         """
-        port = output.port
-        self.message = port.message
+        port = self.port = output.port
         self._output = output
         self._samples: deque[Any] = deque(maxlen=1)
         metadata = metadata_of(name, port.message, port.qos)
@@ -122,8 +121,8 @@ class PlainController:
             Exception: Whatever the constructor of a third party's controller raises.
         """
         node = f'{namespace.rstrip("/")}/{name}'
-        self.inputs: dict[str, list[Input[Any]]] = {}
-        """By the full names of their topics; so are the outputs."""
+        self.ports: dict[type, dict[str, list[Any]]] = {Input: {}, Service: {}, Action: {}}
+        """What it takes, by kind and full name; outputs are by their full names, too."""
         self.outputs: dict[str, Newest] = {}
         self._all_outputs = all_outputs
         self._publisher, self._time = publisher, time
@@ -150,21 +149,31 @@ class PlainController:
     def connect(self) -> None:
         """Find its ports by the names of their topics."""
         self.disconnect()
+        names = self._names
         for each in self.controller.inputs():
-            name = self._names.resolve(each.port.name)
-            self.inputs.setdefault(name, []).append(each)
+            name = self._take(Input, each, names.resolve)
             self._recorded.append(self._publisher.add(PlainInput(name, each)))
+        for service in self.controller.services():
+            self._take(Service, service, names.resolve_service)
+        for action in self.controller.actions():
+            self._take(Action, action, names.expanded)
         for output in self.controller.outputs():
-            name = self._names.resolve(output.port.name)
+            name = names.resolve(output.port.name)
             newest = self.outputs[name] = Newest(name, output, self._publisher)
             self._recorded.append(self._publisher.add(newest))
         self._all_outputs |= self.outputs
+
+    def _take(self, kind: type, port: Any, full: Callable[[str], str]) -> str:
+        name = full(port.port.name)
+        self.ports[kind].setdefault(name, []).append(port)
+        return name
 
     def disconnect(self) -> None:
         """Forget its ports."""
         for topic in self.outputs:
             self._all_outputs.pop(topic, None)
-        self.inputs.clear()
+        for ports in self.ports.values():
+            ports.clear()
         self.outputs.clear()
         self._publisher.forget(self._recorded)
         self._recorded.clear()
@@ -183,14 +192,14 @@ class PlainController:
 
     def subscribed(self, message: str) -> Iterator[str]:
         """Yield the topics that it subscribes to, of a type of messages."""
-        for topic, inputs in self.inputs.items():
+        for topic, inputs in self.ports[Input].items():
             if any(each.port.message == message for each in inputs):
                 yield topic
 
     def published(self, message: str) -> Iterator[str]:
         """Yield the topics that it publishes, of a type of messages."""
         for topic, output in self.outputs.items():
-            if output.message == message:
+            if output.port.message == message:
                 yield topic
 
 

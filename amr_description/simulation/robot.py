@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot of a simulation in this process: what it is sent, and what is read of it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 import math
 from typing import Any
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Input
 from amr_description.control.samples import (
     BodyOdometrySample,
     JointStateSample,
@@ -16,13 +15,20 @@ from amr_description.control.samples import (
 )
 from amr_description.errors import SimulationError
 from amr_description.model.frames import conjugate, rotate, Transform
+from amr_description.model.sensors import frame_in
 from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.api import RobotApi
 from amr_description.simulation.local_manager import LocalManager
-from amr_description.simulation.plain_controllers import Newest
+from amr_description.simulation.plain_controllers import Newest, PlainController
 from amr_description.simulation.readings import Joint, Joints, Motion
 from amr_description.simulation.sensors import RobotSensors
 from amr_description.simulation.spawned_controllers import BROADCASTER, Topics
+from amr_description.simulation.topics.link_transforms import (
+    fixed_places,
+    moving_places,
+    SpawnedRobot,
+    TYPE as TF_TYPE,
+)
 from amr_description.simulation.tracebacks import is_for_the_test
 
 __tracebackhide__ = is_for_the_test
@@ -34,6 +40,7 @@ class Robot(RobotApi):
     def __init__(
         self,
         view: RobotView,
+        spawned: SpawnedRobot,
         namespace: str,
         manager: LocalManager | None,
         topics: Topics,
@@ -44,6 +51,7 @@ class Robot(RobotApi):
 
         Args:
             view: In the world.
+            spawned: The same, as it was spawned.
             namespace: As it was given.
             manager: None: it has no hardware.
             topics: Of its active controllers.
@@ -53,7 +61,9 @@ class Robot(RobotApi):
         self.command_topic = topics.command
         self.manager = manager
         """Its controllers can be loaded, switched and so on."""
-        self._view, self._topics, self._sensors = view, topics, sensors
+        self._view, self._spawned, self._topics = view, spawned, topics
+        self._sensors = sensors
+        self._root_frame = frame_in(spawned.namespace, spawned.robot.root.name)
         self._odometry: tuple[Any, Any] = (None, None)
         """The newest that was read: its sample, and what it says."""
         self._outputs: Mapping[str, Newest] = manager.outputs if manager else {}
@@ -88,16 +98,18 @@ class Robot(RobotApi):
         rows = zip(sample.name, sample.position, sample.velocity, sample.effort, strict=True)
         return Joints({name: Joint(*values) for name, *values in rows})
 
-    def inputs(self, topic: str) -> Iterator[Input[Any]]:
-        """Yield the inputs of its controllers with a topic, by its full name."""
-        for controller in self.manager.served.values() if self.manager else ():
-            yield from controller.inputs.get(topic, ())
+    def ports(self, kind: type, name: str) -> Iterator[Any]:
+        """Yield the inputs, services or actions of its controllers with a name, a full one."""
+        for controller in self._served:
+            yield from controller.ports[kind].get(name, ())
+
+    def names_of(self, kind: type) -> list[str]:
+        """Return the full names of all inputs, services or actions."""
+        return sorted({name for each in self._served for name in each.ports[kind]})
 
     @property
-    def subscribed(self) -> list[str]:
-        """The full names of the topics that its controllers subscribe to."""
-        served = self.manager.served.values() if self.manager else ()
-        return sorted({topic for each in served for topic in each.inputs})
+    def _served(self) -> Iterable[PlainController]:
+        return self.manager.served.values() if self.manager else ()
 
     def sample(self, topic: str) -> Any | None:
         """
@@ -108,6 +120,51 @@ class Robot(RobotApi):
         """
         found = self._outputs.get(topic)
         return None if found is None else found.sample
+
+    def transform(self, target: str, source: str) -> Transform:
+        """
+        Return the pose of the frame ``source`` in the frame ``target``, as tf2 looks it up.
+
+        Links are where they are at this instant; what controllers say of frames, such as where the
+        robot is by its odometry, is the newest of it.
+
+        Raises SimulationError: there is no such frame, or nothing connects the two.
+        """
+        places: dict[str, dict[str, Transform]] = {self._root_frame: {}}
+        for parent, child, place in self._places():
+            places.setdefault(child, {})[parent] = place
+            places.setdefault(parent, {})[child] = place.inverse()
+        for frame in (target, source):
+            if frame not in places:
+                known = ', '.join(sorted(places)) or 'none'
+                raise SimulationError(f"there is no frame '{frame}'; there are: {known}")
+        found, waiting = {source: Transform()}, [source]
+        for frame in waiting:
+            for neighbour, place in places[frame].items():
+                if neighbour not in found:
+                    found[neighbour] = place @ found[frame]
+                    waiting.append(neighbour)
+        if target not in found:
+            raise SimulationError(f"nothing connects the frames '{target}' and '{source}'")
+        return found[target]
+
+    def _places(self) -> Iterator[tuple[str, str, Transform]]:
+        """Yield frames of parents and children, and where the child is in the parent."""
+        from amr_description.messages.plain import PlainMessage  # for who asks
+        from amr_description.messages.writers import writer_of
+
+        yield from fixed_places(self._spawned)
+        yield from moving_places(self._spawned, self._view)
+        outputs = [each for controller in self._served for each in controller.outputs.values()]
+        for output in outputs:
+            if output.port.message != TF_TYPE or output.sample is None:
+                continue
+            message = PlainMessage(TF_TYPE)
+            writer_of(output.port)(output.sample, message)
+            for each in message.transforms:
+                place, turn = each.transform.translation, each.transform.rotation
+                pose = Transform((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+                yield each.header.frame_id, each.child_frame_id, pose
 
     def forget(self) -> None:
         """Drop the samples so far: time went back."""

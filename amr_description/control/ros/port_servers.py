@@ -18,10 +18,10 @@ from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from rclpy.timer import Timer
 
-from amr_description.control.contracts import Action, Goal, GoalStatus, Port, Service
+from amr_description.control.contracts import Action, Goal, GoalStatus, Service
 from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
-from amr_description.messages.readers import reader_of
+from amr_description.messages.readers import part_of, reader_of
 from amr_description.messages.writers import writer_of
 from amr_description.ros.message_types import action_type, service_type
 from amr_description.ros.rclpy_internals import begin_goal, end_goal
@@ -56,8 +56,8 @@ class ServiceServer:
         self._node = node
         self._answer = service.answer
         self._submit = context.loop_thread.submit
-        self._read = reader_of(_part(port.name, f'{port.service}_Request', port.request))
-        self._fill = writer_of(_part(port.name, f'{port.service}_Response', port.response))
+        self._read = reader_of(part_of(port, 'request'))
+        self._fill = writer_of(part_of(port, 'response'))
         self._service = node.create_service(
             service_type(port.service),
             port.name,
@@ -100,9 +100,9 @@ class GoalServer:
         self._node = node
         self._action = action
         self._type = action_type(port.action)
-        self._read = reader_of(_part(port.name, f'{port.action}_Goal', port.goal))
-        self._fill_feedback = writer_of(_part(port.name, f'{port.action}_Feedback', port.feedback))
-        self._fill_result = writer_of(_part(port.name, f'{port.action}_Result', port.result))
+        self._read = reader_of(part_of(port, 'goal'))
+        self._fill_feedback = writer_of(part_of(port, 'feedback'))
+        self._fill_result = writer_of(part_of(port, 'result'))
         self._accepted: Goal[Any, Any, Any] | None = None
         """Between its two callbacks, which follow on one another."""
         self._live: dict[bytes, tuple[Goal[Any, Any, Any], ServerGoalHandle]] = {}
@@ -132,11 +132,8 @@ class GoalServer:
         self._standing.set_time()
         logger = self._node.get_logger()
         try:
-            if not self._action.is_open:
-                reason = "Can't accept new action goals. Controller is not running."
-            else:
-                sample = self._read(request)
-                reason = self._action.check(sample, self._node.get_clock().now().nanoseconds)
+            sample = self._read(request)
+            reason = self._action.refusal(sample, self._node.get_clock().now().nanoseconds)
         except Exception as error:  # a third party's
             reason = f"Cannot accept a goal of '{self._action.port.name}': {describe(error)}"
         if reason:
@@ -193,13 +190,6 @@ class GoalServer:
                 self._fill_result(result, message)
         finally:
             end_goal(self._server, handle, _EVENTS[status], message)
-
-
-def _part(name: str, message: str, converter: type | str) -> Port:
-    """Return a part of a service or an action as the port whose converter it needs."""
-    if isinstance(converter, str):
-        return Port(name, message, convert=converter)
-    return Port(name, message, sample=converter)
 
 
 def _key(handle: ServerGoalHandle) -> bytes:

@@ -17,6 +17,7 @@ from amr_description.model.frames import Transform
 from amr_description.model.kinematics import joint_transform
 from amr_description.model.robot import Joint, JointType, Robot
 from amr_description.model.sensors import frame_in
+from amr_description.sim.robot_view import RobotView
 from amr_description.sim.world import MujocoWorld
 
 TYPE = 'tf2_msgs/msg/TFMessage'
@@ -36,8 +37,27 @@ class SpawnedRobot(NamedTuple):
     """Where it was spawned: from its root link to the world."""
 
 
-_Placed: TypeAlias = tuple[SpawnedRobot, Joint, Transform]
-"""Where the child of a joint is, in its parent."""
+_Placed: TypeAlias = tuple[str, str, Transform]
+"""Frames of parent and child of a joint, and where the child is in the parent."""
+
+
+def fixed_places(each: SpawnedRobot) -> Iterator[_Placed]:
+    """Yield where links are that never move in their parents."""
+    for joint in each.robot.joints:
+        if joint.type in (JointType.FIXED, JointType.PLANAR):
+            yield *_frames(each, joint), joint_transform(joint)
+
+
+def moving_places(each: SpawnedRobot, view: RobotView) -> Iterator[_Placed]:
+    """Yield where links are now that move in their parents."""
+    for joint in each.robot.joints:
+        if joint.has_position:
+            place = view.pose(joint.parent).inverse() @ view.pose(joint.child)
+            yield *_frames(each, joint), place
+
+
+def _frames(each: SpawnedRobot, joint: Joint) -> tuple[str, str]:
+    return frame_in(each.namespace, joint.parent), frame_in(each.namespace, joint.child)
 
 
 class LinkTransforms:
@@ -51,13 +71,7 @@ class LinkTransforms:
     def set_robots(self, robots: Sequence[SpawnedRobot]) -> bytes:
         """Take these robots; return the transforms of their fixed joints."""
         self._robots = tuple(robots)
-        fixed = [
-            (each, joint, joint_transform(joint))
-            for each in robots
-            for joint in each.robot.joints
-            if joint.type in (JointType.FIXED, JointType.PLANAR)
-        ]
-        return _message(fixed, 0)
+        return _message([place for each in robots for place in fixed_places(each)], 0)
 
     def restart(self) -> None:
         """Have the next instant be due."""
@@ -69,26 +83,23 @@ class LinkTransforms:
         if interval == self._interval:
             return None
         self._interval = interval
-        present = self._world.names
+        world = self._world
         places = [
-            place for each in self._robots if each.name in present for place in self._places(each)
+            place
+            for each in self._robots
+            if each.name in world.names
+            for place in moving_places(each, world.robot(each.name))
         ]
         return _message(places, time) if places else None
-
-    def _places(self, each: SpawnedRobot) -> Iterator[_Placed]:
-        view = self._world.robot(each.name)
-        for joint in each.robot.joints:
-            if joint.has_position:
-                yield each, joint, view.pose(joint.parent).inverse() @ view.pose(joint.child)
 
 
 def _message(places: Sequence[_Placed], time: int) -> bytes:
     """Return a tf2_msgs/msg/TFMessage."""
     out = Writer()
     out.count(len(places))
-    for each, joint, place in places:
+    for parent, child, place in places:
         out.stamp(time)
-        out.text(frame_in(each.namespace, joint.parent))
-        out.text(frame_in(each.namespace, joint.child))
+        out.text(parent)
+        out.text(child)
         out.doubles((*place.translation, *place.rotation))
     return out.bytes()

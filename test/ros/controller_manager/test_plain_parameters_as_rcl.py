@@ -119,12 +119,14 @@ def test_a_word_is_what_rcl_takes_it_for(files, tmp_path, word, quote):
         '-r arm:~/odom:=here -r other:~/cmd_vel:=there',
         '--remap /tf:=tf',
         '-r rostopic://~/odom:=x -r rosservice://odom:=y',
+        '-r rosservice://odom:=x -r odom:=y',
     ],
 )
-def test_names_of_topics_are_those_of_rcl(files, namespace, topic, words):
+def test_names_of_topics_and_services_are_those_of_rcl(files, namespace, topic, words):
     node = node_of('arm', namespace, words.split())
     try:
-        expected = node.resolve_topic_name(topic)
+        expected = node.resolve_topic_name(topic), node.resolve_service_name(topic)
     finally:
         node.destroy_node()
-    assert NodeNames(f'{namespace.rstrip("/")}/arm', words.split()).resolve(topic) == expected
+    names = NodeNames(f'{namespace.rstrip("/")}/arm', words.split())
+    assert (names.resolve(topic), names.resolve_service(topic)) == expected
