@@ -7,11 +7,9 @@ What a component sees of a simulated world is in :mod:`amr_description.control.w
 
 Nothing here depends on ROS, MuJoCo or a clock. A single thread, **the control thread**, calls
 every method below except :meth:`Controller.configure`; data from other threads arrives through
-:class:`Input` and :class:`Action`. Times and periods are integer nanoseconds, all physical values
-SI.
+:class:`Input` and :class:`Action`. Times and periods are integer nanoseconds, all else is SI.
 
-A transition or an update that fails raises (:mod:`amr_description.errors`); nothing returns a
-flag.
+A transition or an update that fails raises (:mod:`amr_description.errors`); no flag is returned.
 """
 
 from abc import ABC, abstractmethod
@@ -57,8 +55,7 @@ class Log(Protocol):
     """
     The logger of a component, which has no other way to log.
 
-    The calling thread only stores the line; another one emits it, under the component's own
-    logger.
+    The calling thread only stores the line; another one emits it, by the component's logger.
     """
 
     def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
@@ -346,7 +343,7 @@ class Action(Generic[Request, Feedback, Result]):
 
     def open(self) -> None:
         """Start to take goals; the manager calls it when the controller is activated."""
-        self._abort_all()
+        self.end()
         self.is_open = True
 
     def close(self) -> None:
@@ -355,9 +352,6 @@ class Action(Generic[Request, Feedback, Result]):
 
     def end(self) -> None:
         """Abort what has no end yet; the manager calls it when the controller is inactive."""
-        self._abort_all()
-
-    def _abort_all(self) -> None:
         for goal in (*self._live, *self.drain()):
             goal.abort(None)
         self._live.clear()

@@ -8,7 +8,7 @@ Messages of ROS as plain data, without the packages that ROS has for them.
 ``plain.py``              messages as objects: of defaults, and of what a dict says
 ``parts.py``              what is written into parts of them: stamps, poses
 ``readers.py``            messages → samples of controllers
-``commands.py``           what is sent to an input: a sample or a dict
+``commands.py``           what is sent to an input: sample, dict or bytes
 ``writers.py``            samples of controllers → messages
 ``dof_writers.py``        … of PID controllers and grippers
 ``sensor_writers.py``     … of the broadcasters of sensors, batteries, GPIOs

@@ -4,9 +4,10 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+import struct
 from typing import Any
 
-from amr_description.cdr.serialized import serialized
+from amr_description.cdr.serialized import fill, serialized
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Port
 from amr_description.control.dof_samples import DofCommandSample
@@ -75,6 +76,27 @@ def command_of(port: Port, message: Any, time: int) -> Command:
     if stamp is not None and stamp.sec == stamp.nanosec == 0:
         stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
     return Command(port, reader_of(port)(made), made)
+
+
+def recorded_command(port: Port, message: PlainMessage) -> Command:
+    """Return the command of a message as it is. Raises AmrError: there is no converter."""
+    return Command(port, reader_of(port)(message), message)
+
+
+def plain_message(name: str, data: bytes) -> PlainMessage:
+    """
+    Return the message of bytes.
+
+    Raises AmrError: They are none of that type, or its definition is not here.
+    """
+    if name not in texts():
+        raise AmrError(f'the definition of {name} is not in this package')
+    message = PlainMessage(name)
+    try:
+        fill(layout_of(name), data, message, PlainMessage)
+    except (ValueError, struct.error) as error:
+        raise AmrError(f'these bytes are no {name}: {error}') from error
+    return message
 
 
 def fill_unstamped_twist(sample: TwistSample, message: Any) -> None:

@@ -20,6 +20,7 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``topics/``                what it publishes: sensors, ground truth, transforms
 ``run_recording.py``       begins and ends recordings of a run
 ``run_recorder.py``        … records what is published, and the commands, to a bag
+``recorded_run.py``        what a bag has to be run again, and what of two runs differs
 ``tracebacks.py``          which of our frames a failed test shows
 
 ``engine.py``              the engine: world, loop, and robots that come and go with their managers

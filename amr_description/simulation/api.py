@@ -28,7 +28,7 @@ import math
 from pathlib import Path
 import time as wall
 from types import MappingProxyType, TracebackType
-from typing import Any, Generic, Protocol, Self, TypeVar
+from typing import Any, Generic, Protocol, Self, TYPE_CHECKING, TypeVar
 import warnings
 
 from amr_description.ament_index import path_of
@@ -44,6 +44,9 @@ from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
 from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
 from amr_description.simulation.tracebacks import is_for_the_test, without_frames
+
+if TYPE_CHECKING:  # with what reads bags
+    from amr_description.simulation.recorded_run import RecordedRun
 
 __tracebackhide__ = is_for_the_test
 
@@ -472,6 +475,37 @@ class SimulationApi(ABC, Generic[RobotType]):
     @abstractmethod
     def end_recording(self) -> None:
         """Complete the bag, if there is one."""
+
+    def replay(self, bag: 'str | Path | RecordedRun') -> None:
+        """
+        Reset, and drive as recorded: each command of a bag at the simulated time of its record.
+
+        The robots are to be those of the bag, with the same controllers active; then every bit
+        is, too. :func:`~amr_description.simulation.recorded_run.simulation_of` makes such a
+        simulation. It does not matter which way the bag was recorded.
+
+        Args:
+            bag: A recording that begins at time 0; a folder or a file, or what
+                :func:`~amr_description.simulation.recorded_run.read_run` has read.
+
+        Raises:
+            BagError: It is none.
+        """
+        run = self._read_run(bag) if isinstance(bag, str | Path) else bag
+        self.reset()
+        for instant in run.instants:
+            self.step((instant.time - self._time) // self._timestep)
+            for topic, message in instant.commands:
+                self._repeat(topic, message)
+        self.step()  # so that controllers tick at the last instant
+
+    @abstractmethod
+    def _read_run(self, bag: str | Path) -> 'RecordedRun':
+        """Return the run of a bag. Raises BagError: it cannot be run again."""
+
+    @abstractmethod
+    def _repeat(self, topic: str, message: Any) -> None:
+        """Send a recorded command as it is; a header without a stamp stays so."""
 
     # --- what is read -------------------------------------------------------------------------
 

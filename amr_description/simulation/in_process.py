@@ -17,10 +17,11 @@ in the form of the message::
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
-from amr_description.control.contracts import Action, Goal, Input, Service, Severity
+from amr_description.control.contracts import Action, Goal, Input, Port, Service, Severity
 from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
@@ -43,6 +44,9 @@ from amr_description.simulation.sensors import Instruments, RobotSensors
 from amr_description.simulation.spawned_controllers import spawn_declared, Topics, topics_of
 from amr_description.simulation.topics.link_transforms import SpawnedRobot
 from amr_description.simulation.tracebacks import is_for_the_test
+
+if TYPE_CHECKING:
+    from amr_description.simulation.recorded_run import RecordedRun
 
 __tracebackhide__ = is_for_the_test
 
@@ -192,8 +196,18 @@ class Simulation(SimulationApi[Robot]):
         A message is a sample, or a dict in the form of the message.
         """
         found = {topic: self._ports_of(Input, topic) for topic in messages}  # before any is sent
+        from amr_description.messages.commands import command_of  # with samples of all kinds
+
+        time = self.world.time
         for topic, inputs in found.items():
-            self._put(topic, inputs, messages[topic])
+            message = messages[topic]
+            self._put(topic, inputs, partial(command_of, message=message, time=time))
+
+    def _repeat(self, topic: str, message: Any) -> None:
+        from amr_description.messages.commands import recorded_command
+
+        make = partial(recorded_command, message=message)
+        self._put(topic, self._ports_of(Input, topic), make)
 
     def call(self, service: str, request: Any = NO_FIELDS) -> Any:
         """
@@ -268,13 +282,12 @@ class Simulation(SimulationApi[Robot]):
             )
         return found
 
-    def _put(self, topic: str, inputs: Iterable[Input[Any]], message: Any) -> None:
-        from amr_description.messages.commands import command_of  # with samples of all kinds
-
+    def _put(self, topic: str, inputs: Iterable[Input[Any]], make: Callable[[Port], Any]) -> None:
+        """Send what ``make`` makes a ``Command`` for a port of."""
         time, taken = self.world.time, False
         reasons: list[str] = []
         for each in inputs:
-            command = command_of(each.port, message, time)
+            command = make(each.port)
             reason = each.check(command.sample, time) if each.check else ''
             if reason:
                 reasons.append(reason)
@@ -324,6 +337,11 @@ class Simulation(SimulationApi[Robot]):
     def end_recording(self) -> None:
         """Complete the bag, if there is one."""
         self._published.end_recording()
+
+    def _read_run(self, bag: str | Path) -> 'RecordedRun':
+        from amr_description.simulation.recorded_run import read_run  # with what reads bags
+
+        return read_run(bag)
 
     @property
     def log(self) -> str:

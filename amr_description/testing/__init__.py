@@ -23,7 +23,6 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 ``bags.py``             recordings of tests: ``--ros-bag=on-failure``
 ``failure_logs.py``     the simulator's log, for a test that fails
 
-``recorded_run.py``     what a bag of the simulator has to be run again
 ``replay.py``           runs it again, and compares every message: ``ros2 run … replay BAG``
 
 ``recorded_drive.py``   a controller that drives a course and records every state

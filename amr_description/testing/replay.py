@@ -21,59 +21,17 @@ from collections.abc import Sequence
 from pathlib import Path
 import sys
 import tempfile
-from typing import Any
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, BagError
-from amr_description.model.controller_files import declared_controllers, manager_of
-from amr_description.model.frames import Transform
-from amr_description.model.urdf import parse as parse_urdf
-from amr_description.testing.recorded_run import delays, differences, read_run, RecordedRun
-from amr_description.testing.simulation import Simulation
-from amr_description.text import quote_all
-
-
-def simulation_of(run: RecordedRun, folder: Path, **options: Any) -> Simulation:
-    """
-    Return a simulation of the robots of a run, for :meth:`Simulation.replay`.
-
-    Args:
-        run: From a bag.
-        folder: For the parameter file of the controllers, as long as the simulation runs.
-        **options: Further arguments of :class:`Simulation`.
-
-    Raises:
-        BagError: Its robots are not of one description, or not each in a namespace of its name.
-    """
-    robots = run.description.robots
-    first = robots[0]
-    poses = {each.name: Transform(each.position, each.rotation) for each in robots}
-    if len(robots) > 1 or first.namespace == f'/{first.name}':
-        unlike = [each.name for each in robots if each.description != first.description]
-        unlike += [each.name for each in robots if each.namespace != f'/{each.name}']
-        if unlike:
-            raise BagError(
-                f'robots of several kinds, or namespaces, cannot be run again: {quote_all(unlike)}'
-            )
-        options['robots'] = poses
-    else:
-        options |= {'name': first.name, 'pose': poses[first.name]}
-    controllers, activate = None, []
-    if run.description.controllers:
-        controllers = folder / 'controllers.yaml'
-        controllers.write_text(run.description.controllers, encoding='utf-8')
-        model = parse_urdf(first.description)
-        namespace, manager = manager_of(model)
-        inside = first.namespace if first.namespace != '/' else namespace
-        declared = declared_controllers([controllers], inside, manager)
-        activate = [each.name for each in declared if each.name in run.active]
-    return Simulation(
-        first.description,
-        controllers,
-        activate=activate if controllers else None,
-        parameters=dict(run.description.parameters),
-        **options,
-    )
+from amr_description.simulation.recorded_run import (
+    delays,
+    differences,
+    read_run,
+    RecordedRun,
+    simulation_of,
+)
+from amr_description.testing.simulation import deserialized, Simulation
 
 
 def replay(
@@ -93,11 +51,11 @@ def replay(
     Raises:
         AmrError: It cannot be run again.
     """
-    run = bag if isinstance(bag, RecordedRun) else read_run(bag)
+    run = bag if isinstance(bag, RecordedRun) else read_run(bag, deserialized)
     with tempfile.TemporaryDirectory(prefix='amr-replay-') as name:
         folder = Path(name)
         made = output or folder / 'replay'
-        with simulation_of(run, folder, rtf=rtf, record=made) as sim:
+        with simulation_of(Simulation, run, folder, rtf=rtf, record=made) as sim:
             sim.replay(run)
         again = read_run(made)
     unlike = differences(run, again)
@@ -127,7 +85,7 @@ def main(args: Sequence[str] | None = None) -> int:
     try:
         if given.output is not None and given.output.exists():
             raise BagError(f'--output {given.output}: it is there already; another name will do')
-        run = read_run(given.bag)
+        run = read_run(given.bag, deserialized)
         print(f'{given.bag}: {run.seconds:.9g} s, {run.commands} commands', flush=True)
         lines, is_equal = replay(run, given.output, rtf=given.rtf)
     except AmrError as error:

@@ -21,6 +21,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.serialization import deserialize_message
 from simulation_interfaces.srv import DeleteEntity
 
 from amr_description.errors import AmrError, SimulationError
@@ -29,15 +30,16 @@ from amr_description.model.gazebo_bridge import bridged
 from amr_description.model.gazebo_translation import translate
 from amr_description.ros.discovery import use_whole_graph
 from amr_description.ros.local_participants import is_on_the_network
+from amr_description.ros.message_types import message_type
 from amr_description.ros.participant_end import bound_listener_wait
 from amr_description.ros.transport import udp_only
 from amr_description.simulation.api import namespace_of, SimulationApi
+from amr_description.simulation.recorded_run import read_run, RecordedRun
 from amr_description.simulation.spawned_controllers import Topics
 from amr_description.simulation.tracebacks import is_for_the_test
 from amr_description.testing import bags
 from amr_description.testing.lock_step import Condition, LockStep
 from amr_description.testing.program import DOMAIN, own_domain, require_alone, simulator
-from amr_description.testing.recorded_run import read_run, RecordedRun
 from amr_description.testing.robot import Robot, spawn, spawn_controllers
 from amr_description.testing.sensors import RobotReadings
 
@@ -214,27 +216,11 @@ class Simulation(SimulationApi[Robot]):
         """Complete the bag, if there is one; not that of ``--ros-bag``."""
         self.recording.end_own()
 
-    def replay(self, bag: str | Path | RecordedRun) -> None:
-        """
-        Reset, and drive as recorded: each command of a bag at the simulated time of its record.
+    def _read_run(self, bag: str | Path) -> RecordedRun:
+        return read_run(bag, deserialized)
 
-        The robots are to be those of the bag, with the same controllers active; then every bit
-        is, too. :func:`amr_description.testing.replay.simulation_of` makes such a simulation.
-
-        Args:
-            bag: A recording of the simulator that begins at time 0; a folder or a file, or what
-                :func:`~amr_description.testing.recorded_run.read_run` has read.
-
-        Raises:
-            BagError: It is none.
-        """
-        run = bag if isinstance(bag, RecordedRun) else read_run(Path(bag))
-        self.reset()
-        for instant in run.instants:
-            self.step((instant.time - self._running.time) // self._running.timestep)
-            for topic, message in instant.commands:
-                self._running.send_all({topic: message}, as_they_are=True)
-        self.step()  # so that controllers tick at the last instant
+    def _repeat(self, topic: str, message: Any) -> None:
+        self._running.send_all({topic: message}, as_they_are=True)
 
     def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
@@ -256,6 +242,11 @@ class Simulation(SimulationApi[Robot]):
     def is_alive(self) -> bool:
         """Whether the simulator runs."""
         return not self._simulator.has_ended
+
+
+def deserialized(type_name: str, data: bytes) -> Any:
+    """Return the message of bytes. Raises RuntimeError, ValueError or AmrError: there is none."""
+    return deserialize_message(data, message_type(type_name))
 
 
 def _client(transport: AbstractContextManager[None]) -> tuple[Context, Node]:

@@ -32,12 +32,12 @@ FEW_LINES = 80
 # raise them was the recording without ROS: cdr/, messages/, simulation/topics/.
 BUDGETS = {
     'modules': 817,  # trusted_files.py: the map server asks it, too
-    'code lines': 89_290,  # what a request may name
+    'code lines': 89_377,  # what a request may name
     'small modules of one importer beside them': 45,
     'class names used twice': 106,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_325,  # the client of another user
+    'code lines of helpers in test files': 25_341,  # the client of another user
 }
 
 BASE = {
@@ -143,7 +143,6 @@ ARROWS = {
     },
     # It starts mujoco_sim and check_urdf.
     'testing': {
-        'bag',
         'bringup',
         'cli',
         'control/ros',

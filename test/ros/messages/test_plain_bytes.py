@@ -6,10 +6,9 @@ import random
 import struct
 
 import pytest
-from support.plain_reading import fill
 
 from amr_description.cdr.layouts import Group, Many, Number, Text
-from amr_description.cdr.serialized import serialized
+from amr_description.cdr.serialized import fill, serialized
 from amr_description.messages.definitions import layout_of, texts
 from amr_description.messages.plain import message_of, PlainMessage
 from amr_description.ros import cdr_types

@@ -24,7 +24,7 @@ NODES = {
 """What takes ROS arguments only, or a description: and a line of its help."""
 OTHERS = set(
     re.findall(r"^ +'(\w+) = ", (ROOT / 'setup.py').read_text(encoding='utf-8'), re.MULTILINE)
-) - {*NODES, 'bringup', 'replay', 'xacro'}  # replay: test/unit/testing/test_recorded_run.py
+) - {*NODES, 'bringup', 'replay', 'xacro'}  # replay: test/unit/testing/test_replay.py
 
 
 @pytest.mark.parametrize('option', ['-h', '--help'])

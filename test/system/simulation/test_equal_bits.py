@@ -22,6 +22,7 @@ from amr_description import Simulation
 from amr_description.bag.reader import BagReader
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
+from amr_description.simulation.recorded_run import differences, read_run
 from amr_description.testing.simulation import Simulation as SimulationOverDds
 
 FIXTURES = ROOT / 'test' / 'fixtures'
@@ -160,6 +161,24 @@ def test_recordings_are_the_same_byte_for_byte(pair, tmp_path):
     here, there = (recorded(tmp_path / name) for name in ('here', 'there'))
     assert here.keys() == there.keys()
     assert [name for name in here if here[name] != there[name]] == []
+
+
+def test_what_one_way_has_recorded_is_driven_again_the_other_way(pair, tmp_path):
+    case, here, there = pair
+    for one, other in ((here, there), (there, here)):
+        folder = tmp_path / type(one).__module__
+        folder.mkdir()
+        one.reset()
+        one.record(folder / 'bag')
+        driven(one, case, [(0.5, 0.2, 0.3, False), (0.1, -0.3, 0.134, True)])
+        one.end_recording()
+        other.reset()
+        other.record(folder / 'again')
+        other.replay(folder / 'bag')
+        other.end_recording()
+        first, second = (read_run(folder / name) for name in ('bag', 'again'))
+        assert first.commands
+        assert differences(first, second) == []
 
 
 def test_both_have_the_same_robot(pair):

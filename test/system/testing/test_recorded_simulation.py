@@ -17,7 +17,7 @@ from amr_description.bag.reader import BagReader
 from amr_description.errors import SimulationError
 from amr_description.model.kinematics import joint_transform
 from amr_description.model.urdf import load
-from amr_description.testing.recorded_run import differences, read_run
+from amr_description.simulation.recorded_run import differences, read_run
 from amr_description.testing.simulation import Simulation
 
 URDF = ROOT / 'urdf' / 'amr.urdf'

@@ -7,10 +7,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.plain_reading import fill
 
 from amr_description.cdr.layouts import group, many, Number, Text
-from amr_description.cdr.serialized import serialized
+from amr_description.cdr.serialized import fill, serialized
 from amr_description.cdr.template import template_of
 
 OCTET, SHORT, DOUBLE = Number('B', 'octet'), Number('h', 'int16'), Number('d', 'double')

@@ -69,7 +69,7 @@ def test_my_own_controller_turns_a_wheel_of_my_own_robot_in_my_own_world(tmp_pat
 
 
 def test_what_the_page_names_is_there():
-    named = set(re.findall(r'\bsim\.(\w+)', PAGE.text)) - {'node', 'wait', 'ask', 'replay'}
+    named = set(re.findall(r'\bsim\.(\w+)', PAGE.text)) - {'node', 'wait', 'ask'}
     with Simulation(ROOT / 'urdf' / 'amr.urdf', activate=[]) as sim:
         assert [each for each in sorted(named) if not hasattr(type(sim), each)] == ['world']
         assert sim.world.engine.model.nu > 0

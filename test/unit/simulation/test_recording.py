@@ -7,7 +7,6 @@ import sys
 
 import pytest
 from support.paths import ROOT
-from support.plain_reading import plain_message
 
 from amr_description import Simulation
 from amr_description.bag import run_description
@@ -15,6 +14,7 @@ from amr_description.bag.reader import BagReader
 from amr_description.control.contracts import Controller, Output, Port
 from amr_description.control.samples import TwistSample
 from amr_description.errors import AmrError, SimulationError
+from amr_description.messages.commands import plain_message
 from amr_description.model.frames import Transform
 from amr_description.parameters import parameter
 

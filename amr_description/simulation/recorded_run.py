@@ -8,23 +8,28 @@ a reset the simulator begins a new file, so each file but maybe the first one is
 """
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
-
-from rclpy.serialization import deserialize_message
-from std_msgs.msg import String
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 from amr_description.bag import run_description
 from amr_description.bag.reader import BagReader
 from amr_description.bag.run_description import RunDescription
 from amr_description.bag.storage import BagMessage
 from amr_description.clock import NANOSECONDS
-from amr_description.errors import BagError
-from amr_description.ros.message_types import message_type
+from amr_description.errors import AmrError, BagError
+from amr_description.messages.commands import plain_message
+from amr_description.model.controller_files import declared_controllers, manager_of
+from amr_description.model.frames import Transform
+from amr_description.model.urdf import parse as parse_urdf
+from amr_description.text import quote_all
+
+Decode: TypeAlias = Callable[[str, bytes], Any]
+"""What makes a message of the name of its type, and bytes."""
+Made = TypeVar('Made')
 
 _CLOCK_PERIOD = 10_000_000
 """ns: the simulator has a cycle at each multiple of it, and at each tick of its managers."""
@@ -146,12 +151,18 @@ def _delay(
     return Delay(topic, late, len(other) - len(one))
 
 
-def read_run(path: Path) -> RecordedRun:
+def read_run(bag: str | Path, decode: Decode = plain_message) -> RecordedRun:
     """
     Return the run of a bag, a folder or one of its files; of a bag with resets the last one.
 
-    Raises BagError: the simulator has not recorded it, or it cannot be run again.
+    Args:
+        bag: Its folder, or one of its files.
+        decode: Makes the commands. Raises RuntimeError, ValueError or AmrError.
+
+    Raises:
+        BagError: The simulator has not recorded it, or it cannot be run again.
     """
+    path = Path(bag)
     with BagReader(path) as reader:
         files = reader.file_paths
     file = files[-1]
@@ -172,7 +183,7 @@ def read_run(path: Path) -> RecordedRun:
         commands: dict[int, list[tuple[str, Any]]] = {}
         for each in reader.messages():
             if each.topic in description.commands:
-                message = _decoded(each, message_type(types[each.topic]), file)
+                message = _decoded(each, types[each.topic], file, decode)
                 commands.setdefault(each.log_time, []).append((each.topic, message))
             if each.topic not in left_out:
                 told.setdefault(each.topic, []).append((each.log_time, digest(each.data)))
@@ -206,20 +217,20 @@ def _description(
     texts = [each for each in messages if each.topic == run_description.TOPIC]
     if not texts:
         raise BagError(f'{file}: no message of {run_description.TOPIC} is in it')
-    description = run_description.from_text(_decoded(texts[-1], String, file).data)
+    description = run_description.from_text(_decoded(texts[-1], run_description.TYPE, file).data)
     if not description.robots:
         raise BagError(f'{file}: there is no robot in it')
     return description
 
 
-def _decoded(message: BagMessage, kind: type, file: Path) -> Any:
+def _decoded(message: BagMessage, kind: str, file: Path, decode: Decode = plain_message) -> Any:
     """Return what a message says. Raises BagError: it is not what its type says."""
     try:
-        return deserialize_message(message.data, kind)
-    except (RuntimeError, ValueError) as error:
+        return decode(kind, message.data)
+    except (RuntimeError, ValueError, AmrError) as error:
         raise BagError(
-            f'{file}: the message of {message.topic} at {message.log_time / NANOSECONDS:g} s is '
-            'broken'
+            f'{file}: the message of {message.topic} at {message.log_time / NANOSECONDS:g} s '
+            f'cannot be read: {error}'
         ) from error
 
 
@@ -230,7 +241,7 @@ def _active(
     last = {each.topic: each for each in messages if types[each.topic] == _ACTIVITY}
     names: dict[str, None] = {}
     for each in last.values():
-        activity = _decoded(each, message_type(_ACTIVITY), file)
+        activity = _decoded(each, _ACTIVITY, file)
         for controller in activity.controllers:
             if controller.state.label == 'active':
                 names[controller.name] = None
@@ -246,3 +257,49 @@ def _instants(
     stops = {time for time in clock if time % period and time % _CLOCK_PERIOD}
     times = sorted({*stops, *commands, clock[-1]})
     return tuple(Instant(time, commands.get(time, ())) for time in times)
+
+
+def simulation_of(
+    kind: Callable[..., Made], run: RecordedRun, folder: Path, **options: Any
+) -> Made:
+    """
+    Return a simulation of the robots of a run, for ``replay`` of it.
+
+    Args:
+        kind: Makes one, in this process or over ROS: its class.
+        run: From a bag.
+        folder: For the parameter file of the controllers, as long as the simulation runs.
+        **options: Further arguments of it.
+
+    Raises:
+        BagError: Its robots are not of one description, or not each in a namespace of its name.
+    """
+    robots = run.description.robots
+    first = robots[0]
+    poses = {each.name: Transform(each.position, each.rotation) for each in robots}
+    if len(robots) > 1 or first.namespace == f'/{first.name}':
+        unlike = [each.name for each in robots if each.description != first.description]
+        unlike += [each.name for each in robots if each.namespace != f'/{each.name}']
+        if unlike:
+            raise BagError(
+                f'robots of several kinds, or namespaces, cannot be run again: {quote_all(unlike)}'
+            )
+        options['robots'] = poses
+    else:
+        options |= {'name': first.name, 'pose': poses[first.name]}
+    controllers, activate = None, []
+    if run.description.controllers:
+        controllers = folder / 'controllers.yaml'
+        controllers.write_text(run.description.controllers, encoding='utf-8')
+        model = parse_urdf(first.description)
+        namespace, manager = manager_of(model)
+        inside = first.namespace if first.namespace != '/' else namespace
+        declared = declared_controllers([controllers], inside, manager)
+        activate = [each.name for each in declared if each.name in run.active]
+    return kind(
+        first.description,
+        controllers,
+        activate=activate if controllers else None,
+        parameters=dict(run.description.parameters),
+        **options,
+    )
