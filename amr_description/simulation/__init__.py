@@ -10,6 +10,7 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``measuring.py``           … what they see at an instant
 ``local_manager.py``       … its controller manager
 ``plain_controllers.py``   … its controllers, and their ports
+``films.py``               … films and plots of it
 ``log_lines.py``           … what all of them log
 
 ``api.py``                 what a simulation and its robots can do, wherever they run

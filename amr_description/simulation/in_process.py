@@ -14,8 +14,8 @@ in the form of the message::
     sim.send('/diff_drive_controller/cmd_vel', {'twist': {'linear': {'x': 0.5}}})
 """
 
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import ExitStack
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, ExitStack
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -53,6 +53,8 @@ __tracebackhide__ = is_for_the_test
 _NODE = '/mujoco_sim'
 MAX_SIDE = 8192
 """Pixels, of a picture."""
+PLOTTED = 20.0
+"""Hz, at which a plot has points."""
 NO_FIELDS: Mapping[str, Any] = {}
 _TAKES = {Input: 'subscribes to', Service: 'has the service', Action: 'has the action'}
 
@@ -326,6 +328,70 @@ class Simulation(SimulationApi[Robot]):
                 f'a picture of {width} x {height} pixels; each side has 1 to {MAX_SIDE}'
             )
         return self._instruments.measuring.picture(position, target, width, height)
+
+    @contextmanager
+    def film(
+        self,
+        path: str | Path,
+        position: Vector | None = None,
+        target: Vector | None = None,
+        *,
+        rate: float = 10.0,
+        width: int = 320,
+        height: int = 240,
+    ) -> Iterator[None]:
+        """
+        Film what happens in a ``with`` block; the file is written at its end.
+
+        Args:
+            path: Of the file: ``.webp`` and ``.gif`` need Pillow, ``.mp4`` needs ffmpeg.
+            position: As of :meth:`picture`, as all that follows.
+            target: What the camera looks at, m.
+            rate: Pictures per s of simulated time.
+            width: Pixels.
+            height: Pixels.
+
+        Raises:
+            SimulationError: What it needs is not there, or it cannot be written.
+        """
+        from amr_description.simulation.films import Film, observed  # for who films
+
+        self._require_running()
+        film = Film(Path(path), rate)
+
+        def shoot() -> None:
+            film.add(self.picture(position, target, width=width, height=height))
+
+        with observed(self._published.publisher.observers, rate, shoot):
+            yield
+        film.write()
+
+    @contextmanager
+    def plot(self, path: str | Path) -> Iterator[None]:
+        """
+        Draw where the robots drive in a ``with`` block: in truth, and by their odometry.
+
+        Args:
+            path: Of the file: ``.png``, ``.svg`` or what else matplotlib writes, which it needs.
+
+        Raises:
+            SimulationError: It is not there, or the file cannot be written.
+        """
+        from amr_description.simulation.films import observed, Plot
+
+        self._require_running()
+        plot = Plot(Path(path))
+
+        def note() -> None:
+            for robot in self._robots.values():
+                places = {f'{robot.name}, truth': robot.truth}
+                if robot.has_odometry:
+                    places[f'{robot.name}, odometry'] = robot.odometry
+                plot.add({name: (each.x, each.y) for name, each in places.items()})
+
+        with observed(self._published.publisher.observers, PLOTTED, note):
+            yield
+        plot.write()
 
     # --- recordings, log ----------------------------------------------------------------------
 

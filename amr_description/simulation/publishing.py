@@ -163,6 +163,8 @@ class PlainPublisher:
         self.log = log
         self.reporters: list[Callable[[int], None]] = []
         self.followers: list[Callable[[], None]] = []
+        self.observers: list[Callable[[int], None]] = []
+        """Called at the end of each cycle with its time, ns, whether somebody records or not."""
         self.outbox: list[tuple[PlainTopic, Any]] = []
         self._recorder: RunRecorder | None = None
         self._clock = PlainTopic(metadata_of('/clock', _CLOCK), _clock_encoder, self)
@@ -220,6 +222,8 @@ class PlainPublisher:
 
     def publish(self, time: int) -> None:
         """Publish what was sent since the last call; ``time``: of this cycle, ns."""
+        for observe in self.observers:
+            observe(time)
         recorder = self._recorder
         if recorder is None:
             return

@@ -92,6 +92,11 @@ class Robot(RobotApi):
         return self._odometry[1]
 
     @property
+    def has_odometry(self) -> bool:
+        """Whether its drive has published odometry since the reset."""
+        return self.sample(self._topics.odometry) is not None
+
+    @property
     def joints(self) -> dict[str, Joint]:
         """The last state of each joint, by name, from the JointStateBroadcaster."""
         sample: JointStateSample = self._newest(self._topics.joints, BROADCASTER)
