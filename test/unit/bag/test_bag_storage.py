@@ -13,9 +13,11 @@ import pytest
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import get_typestore, Stores
+from support.paths import ROOT
 import yaml
 import zstandard
 
+from amr_description import Simulation
 from amr_description.bag import compression, metadata, qos_text
 from amr_description.bag.compression import SUFFIX
 from amr_description.bag.mcap_options import PRESETS, settings_from_text
@@ -146,6 +148,19 @@ def test_rosbags_reads_ours_with_types_qos_and_hashes(tmp_path):
     with AnyReader([bag]) as reader:
         texts = [reader.deserialize(data, c.msgtype).data for c, _, data in reader.messages()]
     assert texts == [f'{n}' + 'x' * 1000 for n in range(2000)]
+
+
+def test_rosbags_reads_all_that_a_simulation_without_ros_records(tmp_path):
+    robot = ROOT / 'urdf' / 'amr_sensors.urdf.xacro'
+    with Simulation(robot, world='walls', record=tmp_path / 'bag') as sim:
+        sim.drive(0.5, 0.0, seconds=0.1, stop=False)
+    with AnyReader([tmp_path / 'bag']) as reader:
+        read = {
+            each.topic: reader.deserialize(raw, each.msgtype) for each, _, raw in reader.messages()
+        }
+    assert {'/odom', '/tf', '/scan', '/camera/points', '/mujoco_sim/world'} <= read.keys()
+    assert len(read['/scan'].ranges) == 360
+    assert read['/odom'].header.frame_id == 'odom'
 
 
 def test_library_of_mcap_reads_ours(tmp_path):
