@@ -28,6 +28,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``access.py``       which requests are answered: Host, Origin, token
 ``graph.py``        names and types of a ROS graph -> robots and simulators
 ``entities.py``     which entity of a world a robot is
+``description.py``   a robot description for the page: joints, meshes, findings
 ``joint_groups.py`` the joints that controllers let a page move, and to where
 ``client.py``       a page without a browser, for measurements and tests
 ``ros/``            the backend for the ROS graph

@@ -17,6 +17,7 @@ from support.paths import ROOT
 
 from amr_description.errors import ViewerError
 from amr_description.viewer.backend import Answer
+from amr_description.viewer.description import describe_robot
 from amr_description.viewer.introspection import (
     Endpoint,
     FindingInfo,
@@ -50,7 +51,6 @@ from amr_description.viewer.protocol import (
     SimulatorInfo,
 )
 from amr_description.viewer.requests import ListParameters
-from amr_description.viewer.ros.description import describe_robot
 from amr_description.viewer.server import Server, ServerSettings
 from amr_description.viewer.states import StateFrame
 

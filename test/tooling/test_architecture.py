@@ -32,7 +32,7 @@ FEW_LINES = 80
 # raise them was the recording without ROS: cdr/, messages/, simulation/topics/.
 BUDGETS = {
     'modules': 818,  # trusted_files.py: the map server asks it, too
-    'code lines': 89_536,  # what a request may name
+    'code lines': 89_535,  # what a request may name
     'small modules of one importer beside them': 45,
     'class names used twice': 106,
     'modules excused from a check of types': 46,

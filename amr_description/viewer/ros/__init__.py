@@ -34,7 +34,6 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``publications.py``     what pages publish by forms
 ``parameters.py``       parameters of any node, listed and set
 ``on_thread.py``        have the ROS thread do something, and wait for it
-``description.py``      a robot description for the page: joints, meshes, findings
 ``markers.py``          MarkerArray and /diagnostics, converted for the page
 ``service_clients.py``  services of simulators and controller managers
 ``world_change.py``     another world around the robots that are there

@@ -20,6 +20,7 @@ from visualization_msgs.msg import MarkerArray
 from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import TopicMetadata
 from amr_description.clock import NANOSECONDS
+from amr_description.model.robot import Joint
 from amr_description.ros.cdr import (
     DynamicJointStateReader,
     FramePose,
@@ -30,6 +31,7 @@ from amr_description.ros.cdr import (
     read_twist,
     read_twist_stamped,
 )
+from amr_description.viewer.description import describe_robot, DescribedRobot
 from amr_description.viewer.graph import (
     discover,
     DiscoveredGraph,
@@ -43,7 +45,6 @@ from amr_description.viewer.graph import (
 from amr_description.viewer.introspection import LogLine
 from amr_description.viewer.protocol import FrameInfo, RobotLayout, World
 from amr_description.viewer.ros.command_topic import DEFAULT_TIMEOUT
-from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.log_lines import read_line
 from amr_description.viewer.ros.markers import shapes_of
 from amr_description.viewer.ros.robot_topics import WHEEL_VALUES
@@ -102,7 +103,7 @@ class RecordedFrames:
         if before and len(self._parents[name]) > before:
             self._changes.add(time)
 
-    def complete(self, time: int, namespace: str, fixed: Iterable[FramePose]) -> None:
+    def complete(self, time: int, namespace: str, fixed: Iterable[Joint]) -> None:
         """
         Add links of a robot that no transform of the bag is of, where its description has them.
 
@@ -112,8 +113,10 @@ class RecordedFrames:
         if not any(name.startswith(prefix) for name in self._poses):
             prefix = ''
         for each in fixed:
-            if _prefixed(prefix, each.name) not in self._poses:
-                self._add(time, prefix, each, f'{namespace.rstrip("/")}/tf_static')
+            if _prefixed(prefix, each.child) not in self._poses:
+                origin = each.origin
+                pose = FramePose(each.child, each.parent, (*origin.translation, *origin.rotation))
+                self._add(time, prefix, pose, f'{namespace.rstrip("/")}/tf_static')
 
     def version(self, time: int) -> int:
         """Return which of its trees it was at a time: they differ in who is whose parent."""

@@ -25,10 +25,10 @@ from amr_description.errors import AmrError, ViewerError
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
 from amr_description.viewer.backend import Hold
+from amr_description.viewer.description import describe_robot, DescribedRobot
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import Commanders, RobotInfo
 from amr_description.viewer.requests import Part
-from amr_description.viewer.ros.description import describe_robot, DescribedRobot
 from amr_description.viewer.ros.joint_commands import JointCommands
 from amr_description.viewer.ros.robot_topics import COMMAND_TYPES, RobotTopics
 from amr_description.viewer.ros.stopping import CommandAnswer, Lock, lock_topic

@@ -8,6 +8,7 @@ from fixtures.sim.driving import AMR
 import pytest
 from test_viewer_pages import Backend, serving
 
+from amr_description.viewer.description import describe_robot
 from amr_description.viewer.protocol import (
     Command,
     FrameInfo,
@@ -16,7 +17,6 @@ from amr_description.viewer.protocol import (
     RobotInfo,
     RobotLayout,
 )
-from amr_description.viewer.ros.description import describe_robot
 from amr_description.viewer.states import StateFrame
 
 PERIOD = 2.0  # s of simulated time between two states

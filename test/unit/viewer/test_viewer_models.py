@@ -15,8 +15,8 @@ from support.mesh_files import box, glb, gltf, write
 
 from amr_description.model.meshes import load_mesh
 from amr_description.model.origins import Origin, with_origins
+from amr_description.viewer.description import describe_robot
 from amr_description.viewer.http import digest, StaticFiles
-from amr_description.viewer.ros.description import describe_robot
 
 JOINT = '<joint name="{0}" type="{1}"><parent link="a"/><child link="{0}_link"/>{2}</joint>'
 LINK = '<link name="{0}_link"/>'

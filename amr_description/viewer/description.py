@@ -18,7 +18,6 @@ from amr_description.model.checks import examine
 from amr_description.model.meshes import load_mesh, stl_bytes
 from amr_description.model.origins import line_from
 from amr_description.model.robot import Collision, Joint, JointType, Mesh, Robot, Visual
-from amr_description.ros.cdr import FramePose
 from amr_description.text import one_line
 from amr_description.viewer.http import digest
 from amr_description.viewer.protocol import Finding, JointInfo, Model
@@ -43,8 +42,8 @@ class DescribedRobot:
     """What is in a file, or instead of one that the page does not read."""
     speeds: Mapping[str, float]
     """The velocity limits of joints that have one, rad/s or m/s."""
-    fixed: tuple[FramePose, ...] = ()
-    """Where links are that do not move in their parents."""
+    fixed: tuple[Joint, ...] = ()
+    """Those that do not move."""
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -90,7 +89,7 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
     limits = {each.name: each.limit for each in model.joints if each.limit} if model else {}
     speeds = {name: limit.velocity for name, limit in limits.items() if limit.velocity > 0.0}
     joints = model.joints if model else ()
-    fixed = tuple(_fixed(each) for each in joints if not each.is_moving)
+    fixed = tuple(each for each in joints if not each.is_moving)
     return DescribedRobot(model.name if model else '', message, files, speeds, fixed)
 
 
@@ -142,11 +141,6 @@ def _check_kind(file: Path) -> None:
     suffix, known = file.suffix.lower(), _MESHES | _CONVERTED | _IMAGES
     if suffix not in known:
         raise ResourceError(f'the page draws {", ".join(sorted(known))}, not {suffix!a}')
-
-
-def _fixed(joint: Joint) -> FramePose:
-    origin = joint.origin
-    return FramePose(joint.child, joint.parent, (*origin.translation, *origin.rotation))
 
 
 def _joint(joint: Joint) -> JointInfo:
