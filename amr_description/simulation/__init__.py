@@ -12,6 +12,10 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``plain_controllers.py``   … its controllers, and their ports
 ``films.py``               … films and plots of it
 ``log_lines.py``           … what all of them log
+``playing.py``             … time that passes by the wall clock
+``shown.py``               … its page, and what pages do
+``shown_scene.py``         … … what it shows: robots, world, states, sensors
+``page_backend.py``        … … for its server, which has a thread of its own
 
 ``api.py``                 what a simulation and its robots can do, wherever they run
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds

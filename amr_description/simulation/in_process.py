@@ -3,7 +3,8 @@
 """
 The simulation in this process: the same physics, hardware, controllers and sensors, and no ROS.
 
-No other process, and no thread: time passes in the calls that let it pass. What can be done with
+No other process, and no thread but that of the page, if it is shown: time passes in the calls that
+let it pass. What can be done with
 it is said in :mod:`amr_description.simulation.api`; ``amr_description.testing`` does the same over
 DDS, with the same bits.
 
@@ -18,6 +19,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, ExitStack
 from dataclasses import replace
 from functools import partial
+import math
 from pathlib import Path
 from typing import Any, TYPE_CHECKING
 
@@ -36,6 +38,7 @@ from amr_description.simulation.engine import SimulationEngine, Spawned
 from amr_description.simulation.local_manager import LocalHost, LocalManager
 from amr_description.simulation.log_lines import LogLines
 from amr_description.simulation.parameters import SimulationParameters
+from amr_description.simulation.playing import play, Playing
 from amr_description.simulation.plugin_controllers import start_controllers
 from amr_description.simulation.published import Published
 from amr_description.simulation.readings import Image
@@ -45,8 +48,9 @@ from amr_description.simulation.spawned_controllers import spawn_declared, Topic
 from amr_description.simulation.topics.link_transforms import SpawnedRobot
 from amr_description.simulation.tracebacks import is_for_the_test
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # most simulations neither drive a bag again nor serve the page
     from amr_description.simulation.recorded_run import RecordedRun
+    from amr_description.simulation.shown import ShownPage
 
 __tracebackhide__ = is_for_the_test
 
@@ -79,6 +83,8 @@ class Simulation(SimulationApi[Robot]):
         """The physics; for the model and the state of MuJoCo."""
         self._published.loop = self._loop
         self._instruments = Instruments(self.world, settings.camera_renderer, self._log)
+        self._playing = Playing(self._rtf or 1.0)
+        self._page: ShownPage | None = None
         stack.callback(self._end)
 
     def _ports(
@@ -94,6 +100,7 @@ class Simulation(SimulationApi[Robot]):
         """Stop the motors; hardware and controllers of others may have what has to be closed."""
         with ExitStack() as ending:  # whatever one raises, the next one has to be stopped too
             ending.callback(self._instruments.close)
+            ending.callback(self._close_page)
             for manager in reversed(self._loop.managers):
                 ending.callback(manager.shut_down, self._loop.time)
             ending.callback(self._published.close)  # first: their end is not part of the run
@@ -180,6 +187,7 @@ class Simulation(SimulationApi[Robot]):
                 f'{self._engine.missing_steps(missing)} of {count} steps were not made: the '
                 'simulation was played, paused, reset or ended meanwhile'
             )
+        self._serve()
 
     def reset(self) -> None:
         """Reset: time 0, robots where they were spawned, odometry at zero."""
@@ -188,6 +196,22 @@ class Simulation(SimulationApi[Robot]):
         self._engine.reset()
         for robot in self._robots.values():
             robot.forget()
+        self._serve()
+
+    def play(self, seconds: float = math.inf) -> None:
+        """
+        Let time pass as the wall clock goes, until Ctrl-C; pages drive the robots meanwhile.
+
+        Args:
+            seconds: Of the wall clock, after which it ends by itself.
+        """
+        self._require_running()
+        playing = self._playing
+        play(playing, self._advance, self.timestep, self._serve, seconds)
+
+    def _serve(self) -> None:
+        if self._page is not None:
+            self._page.serve()
 
     # --- topics, services, actions, frames -----------------------------------------------------
 
@@ -392,6 +416,40 @@ class Simulation(SimulationApi[Robot]):
         with observed(self._published.publisher.observers, PLOTTED, note):
             yield
         plot.write()
+
+    def show(self, *, port: int = 8080, token: bool = False, wait: bool = False) -> 'ShownPage':
+        """
+        Serve the page of the viewer on this host, and return it; a notebook shows it.
+
+        It shows what the program does. While the program is in :meth:`play` it drives, too.
+
+        Args:
+            port: To listen on, or the next one that is free; 0: any.
+            token: Make a token part of the address: not every user of this host may open it.
+            wait: Say where the page is, and :meth:`play`.
+        """
+        self._require_running()
+        if self._page is None:
+            try:
+                from amr_description.simulation.shown import ShownPage
+            except ModuleNotFoundError as error:
+                if (error.name or '').partition('.')[0] != 'websockets':
+                    raise
+                raise SimulationError(
+                    'show() serves a page, and needs websockets: python -m pip install websockets'
+                ) from error
+            self._page = ShownPage(self, self._engine, self._playing, port=port, token=token)
+        else:
+            self._page.refresh()
+        if wait:
+            print(f'The page is at {self._page.url}; Ctrl-C ends it', flush=True)
+            self.play()
+        return self._page
+
+    def _close_page(self) -> None:
+        if self._page is not None:
+            self._page.close()
+            self._page = None
 
     # --- recordings, log ----------------------------------------------------------------------
 

@@ -58,12 +58,17 @@ class Robot(RobotApi):
             sensors: That look at the world.
         """
         self.name, self.namespace = view.name, namespace
+        self.inside = spawned.namespace
+        """The namespace that its topics are in, absolute."""
         self.command_topic = topics.command
         self.manager = manager
         """Its controllers can be loaded, switched and so on."""
-        self._view, self._spawned, self._topics = view, spawned, topics
-        self._sensors = sensors
+        self._view, self._spawned, self._sensors = view, spawned, sensors
         self._root_frame = frame_in(spawned.namespace, spawned.robot.root.name)
+        self.topics = topics
+        """Of its active controllers, when it was spawned."""
+        self.sensor_topics: Mapping[str, str] = sensors.kinds
+        """Of what its sensors see, by name: types of messages."""
         self._odometry: tuple[Any, Any] = (None, None)
         """The newest that was read: its sample, and what it says."""
         self._outputs: Mapping[str, Newest] = manager.outputs if manager else {}
@@ -86,7 +91,7 @@ class Robot(RobotApi):
     @property
     def odometry(self) -> Motion:
         """The last odometry of the drive, with its own stamp (:attr:`Motion.time`)."""
-        sample = self._newest(self._topics.odometry, 'drive')
+        sample = self._newest(self.topics.odometry, 'drive')
         if sample is not self._odometry[0]:  # it is published at half the rate of most loops
             self._odometry = (sample, _motion_of(sample))
         return self._odometry[1]
@@ -94,12 +99,12 @@ class Robot(RobotApi):
     @property
     def has_odometry(self) -> bool:
         """Whether its drive has published odometry since the reset."""
-        return self.sample(self._topics.odometry) is not None
+        return self.sample(self.topics.odometry) is not None
 
     @property
     def joints(self) -> dict[str, Joint]:
         """The last state of each joint, by name, from the JointStateBroadcaster."""
-        sample: JointStateSample = self._newest(self._topics.joints, BROADCASTER)
+        sample: JointStateSample = self._newest(self.topics.joints, BROADCASTER)
         rows = zip(sample.name, sample.position, sample.velocity, sample.effort, strict=True)
         return Joints({name: Joint(*values) for name, *values in rows})
 

@@ -7,7 +7,7 @@ They measure when they are read, from the state of that instant and with its noi
 and what is not read costs nothing. What they measure with is imported with the first sensor.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -129,6 +129,11 @@ class RobotSensors:
         """
         self._instruments, self._view, self._namespace = instruments, view, namespace
         self._topics = SensorTopics(view.name, sensors, namespace)
+
+    @property
+    def kinds(self) -> Mapping[str, str]:
+        """By the full names of topics: types of messages; of depths :data:`DEPTH`."""
+        return self._topics.kinds
 
     def scan(self, topic: str = '') -> Scan:
         """Return what a lidar sees now; of the only one, or of that with a topic."""

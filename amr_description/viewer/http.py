@@ -8,7 +8,7 @@ scripts, and from showing the page inside another one.
 """
 
 import asyncio
-from collections.abc import Callable, Set as AbstractSet
+from collections.abc import Callable, Sequence, Set as AbstractSet
 from dataclasses import dataclass
 from email.utils import formatdate
 import gzip
@@ -65,11 +65,11 @@ CONTENT_SECURITY_POLICY = '; '.join(
         "worker-src 'self' blob:",
         "base-uri 'none'",
         "form-action 'none'",
-        "frame-ancestors 'none'",
     )
 )
+"""But for where the page may be a frame."""
+NONE = "'none'"
 _HEADERS = {
-    'Content-Security-Policy': CONTENT_SECURITY_POLICY,
     'Cross-Origin-Opener-Policy': 'same-origin',
     'Cross-Origin-Resource-Policy': 'same-origin',
     'Referrer-Policy': 'no-referrer',
@@ -182,8 +182,14 @@ class HttpFiles:
     """Responds to requests for files; passes those for the WebSocket on."""
 
     def __init__(
-        self, static: StaticFiles, mesh: Callable[[str], Path | bytes | None], access: Access
+        self,
+        static: StaticFiles,
+        mesh: Callable[[str], Path | bytes | None],
+        access: Access,
+        ancestors: Sequence[str] = (),
     ) -> None:
+        """``ancestors``: the pages in which this one may be a frame; none, if there are none."""
+        self._policy = f'{CONTENT_SECURITY_POLICY}; frame-ancestors {" ".join(ancestors) or NONE}'
         self._static = static
         self._mesh = mesh
         self._access = access
@@ -192,6 +198,12 @@ class HttpFiles:
 
     async def respond(self, connection: ServerConnection, request: Request) -> Response | None:
         """Return the response; None: the request continues as a WebSocket handshake."""
+        response = await self._respond(connection, request)
+        if response is not None:
+            response.headers['Content-Security-Policy'] = self._policy
+        return response
+
+    async def _respond(self, connection: ServerConnection, request: Request) -> Response | None:
         for name in _SINGLE_HEADERS:
             if len(request.headers.get_all(name)) > 1:
                 return _text(HTTPStatus.BAD_REQUEST, f'the request has more than one {name}')

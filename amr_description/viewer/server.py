@@ -70,6 +70,7 @@ class ServerSettings:
         always_token: required there, too: of the users of this host, only who has it may drive.
         version: of this package.
         domain: ROS domain id.
+        ancestors: where the page may be a frame, as Content-Security-Policy names such pages.
     """
 
     host: str = DEFAULT_HOST
@@ -79,6 +80,7 @@ class ServerSettings:
     always_token: bool = False
     version: str = ''
     domain: int = 0
+    ancestors: tuple[str, ...] = ()
 
     @property
     def access(self) -> Access:
@@ -102,7 +104,8 @@ class Server:
         self._backend = backend
         self._log_error = log_error
         self._socket = _bind(settings.host, settings.port)
-        self._http = HttpFiles(StaticFiles(static), backend.mesh, settings.access)
+        files = StaticFiles(static)
+        self._http = HttpFiles(files, backend.mesh, settings.access, settings.ancestors)
         self._pages = Pages()
         self._loop = asyncio.new_event_loop()
         self._loop.set_exception_handler(self._on_exception)
@@ -124,8 +127,9 @@ class Server:
         token = self._settings.access.token
         return f'http://{host}:{port}/' + (f'?{TOKEN_PARAMETER}={token}' if token else '')
 
-    def start(self) -> None:
-        """Start the thread."""
+    def start(self, *, is_daemon: bool = False) -> None:
+        """Start the thread; ``is_daemon``: the process may end without :meth:`stop`."""
+        self._thread.daemon = is_daemon
         self._thread.start()
 
     def stop(self) -> None:

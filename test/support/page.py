@@ -9,7 +9,7 @@ import threading
 import time
 from urllib.parse import urlsplit
 
-from support.ros_processes import PATIENCE
+from support.running_programs import PATIENCE
 from websockets.exceptions import ConnectionClosed
 
 from amr_description.viewer.client import page_socket

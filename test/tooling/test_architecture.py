@@ -29,15 +29,16 @@ MOST_LINES_OF_A_FUNCTION = 60
 MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it. The last to
-# raise them was the recording without ROS: cdr/, messages/, simulation/topics/.
+# raise them were the recording without ROS: cdr/, messages/, simulation/topics/; and its page:
+# shown.py and what it takes.
 BUDGETS = {
-    'modules': 818,  # trusted_files.py: the map server asks it, too
-    'code lines': 89_535,  # what a request may name
+    'modules': 822,  # trusted_files.py: the map server asks it, too
+    'code lines': 90_210,  # what a request may name
     'small modules of one importer beside them': 45,
     'class names used twice': 106,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_374,  # the client of another user
+    'code lines of helpers in test files': 25_383,  # the client of another user
 }
 
 BASE = {
@@ -75,6 +76,7 @@ ARROWS = {
         'controllers',
         'hardware',
         'sim',
+        'viewer',  # its page
         'bag',
         'cdr',
         'messages',
@@ -416,7 +418,7 @@ def test_the_simulation_without_ros_needs_none():
         waiting += found
     assert 'amr_description.hardware.mujoco_system' in needed
     rooms = {room_of(module) for module in needed}
-    assert rooms & (ROS | {'bringup', 'launch_api', 'viewer', 'workspace'}) == set()
+    assert rooms & (ROS | {'bringup', 'launch_api', 'workspace'}) == set()
     wrong = [
         f'{where(path, line)}: {name}'
         for module, path, line, name in imports()
