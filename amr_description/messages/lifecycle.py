@@ -7,14 +7,11 @@ What a controller manager says of states, as the bytes of messages.
 """
 
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
-from amr_description.cdr.serialized import serialized
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.snapshot import ComponentSnapshot, ControllerSnapshot, ManagerSnapshot
-from amr_description.messages.definitions import layout_of
 from amr_description.messages.parts import fill_stamp
-from amr_description.messages.plain import PlainMessage
 
 ACTIVITY = 'controller_manager_msgs/msg/ControllerManagerActivity'
 TRANSITION_EVENT = 'lifecycle_msgs/msg/TransitionEvent'
@@ -69,7 +66,7 @@ def transition_event(
         reached: In which it has ended; None: it has begun.
     """
     transition, between = _BEGUN[start, goal]
-    event = PlainMessage(TRANSITION_EVENT)
+    event = _new(TRANSITION_EVENT)
     event.timestamp = time
     before, after = _state(start), between
     if reached is not None:
@@ -81,7 +78,7 @@ def transition_event(
         (event.goal_state, after),
     ):
         message.id, message.label = number, label
-    return serialized(layout_of(TRANSITION_EVENT), event)
+    return _bytes_of(TRANSITION_EVENT, event)
 
 
 def states_of(snapshot: ManagerSnapshot) -> tuple[States, States]:
@@ -98,19 +95,32 @@ def activity(time: int, controllers: States, components: States) -> bytes:
         controllers: See :func:`states_of`.
         components: Likewise.
     """
-    message = PlainMessage(ACTIVITY)
+    message = _new(ACTIVITY)
     fill_stamp(time, message.header.stamp)
     message.controllers = [_named_state(*each) for each in controllers]
     message.hardware_components = [_named_state(*each) for each in components]
-    return serialized(layout_of(ACTIVITY), message)
+    return _bytes_of(ACTIVITY, message)
+
+
+def _new(type_name: str) -> Any:
+    from amr_description.messages.plain import PlainMessage  # for who hears of states
+
+    return PlainMessage(type_name)
+
+
+def _bytes_of(type_name: str, message: Any) -> bytes:
+    from amr_description.cdr.serialized import serialized
+    from amr_description.messages.definitions import layout_of
+
+    return serialized(layout_of(type_name), message)
 
 
 def _named(entries: Sequence[ControllerSnapshot] | Sequence[ComponentSnapshot]) -> States:
     return tuple((each.name, _state(each.state)) for each in entries)
 
 
-def _named_state(name: str, state: State) -> PlainMessage:
-    message = PlainMessage('controller_manager_msgs/msg/NamedLifecycleState')
+def _named_state(name: str, state: State) -> Any:
+    message = _new('controller_manager_msgs/msg/NamedLifecycleState')
     message.name = name
     message.state.id, message.state.label = state
     return message

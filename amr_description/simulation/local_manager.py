@@ -109,7 +109,8 @@ class LocalManager:
         states = states_of(snapshot)
         if states != self._states:
             self._states = states
-            self._activity.publish(activity(self._time(), *states))
+            time = self._time()
+            self._activity.publish(lambda: activity(time, *states))
 
     @property
     def served(self) -> Mapping[str, PlainController]:

@@ -15,7 +15,6 @@ from amr_description.control.contracts import Action, Controller, Input, Log, Ou
 from amr_description.control.interfaces import LifecycleState
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.controller_manager.plain_parameters import PlainParameters
-from amr_description.messages.encoders import bytes_encoder_of
 from amr_description.messages.lifecycle import TRANSITION_EVENT, transition_event
 from amr_description.model.robot import Robot
 from amr_description.ros_arguments import NodeNames
@@ -25,6 +24,7 @@ from amr_description.simulation.publishing import (
     PlainPublisher,
     PlainTopic,
 )
+from amr_description.simulation.topics.advertising import Encode
 
 if TYPE_CHECKING:  # its libraries are for who records
     from amr_description.simulation.run_recorder import RunRecorder
@@ -50,8 +50,13 @@ class Newest(PlainTopic):
         self._output = output
         self._samples: deque[Any] = deque(maxlen=1)
         metadata = metadata_of(name, port.message, port.qos)
-        super().__init__(metadata, lambda: bytes_encoder_of(port), publisher)
+        super().__init__(metadata, self._encoder_of_bytes, publisher)
         self._choose_sink()
+
+    def _encoder_of_bytes(self) -> Encode:
+        from amr_description.messages.encoders import bytes_encoder_of  # with all samples
+
+        return bytes_encoder_of(self._output.port)
 
     def attach(self, recorder: 'RunRecorder | None') -> None:
         """Record from now on; None: no more."""
@@ -187,8 +192,8 @@ class PlainController:
         self, start: LifecycleState, goal: LifecycleState, reached: LifecycleState | None
     ) -> None:
         """Publish that a transition has begun, or (``reached``) has ended."""
-        if self._transitions.is_heard:
-            self._transitions.publish(transition_event(self._time(), start, goal, reached))
+        time = self._time()
+        self._transitions.publish(lambda: transition_event(time, start, goal, reached))
 
     def subscribed(self, message: str) -> Iterator[str]:
         """Yield the topics that it subscribes to, of a type of messages."""

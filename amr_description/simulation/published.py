@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Log
@@ -21,11 +21,12 @@ from amr_description.parameters import specs
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.parameters import SimulationParameters
 from amr_description.simulation.publishing import LATCHED, PlainPublisher
-from amr_description.simulation.run_recording import describe_run, RunRecording
-from amr_description.simulation.topics.ground_truth import GroundTruth
 from amr_description.simulation.topics.link_transforms import LinkTransforms, SpawnedRobot
-from amr_description.simulation.topics.sensor_manager import SensorManager
-from amr_description.simulation.topics.world_markers import TYPE, world_markers
+
+if TYPE_CHECKING:  # for who records
+    from amr_description.simulation.run_recording import RunRecording
+    from amr_description.simulation.topics.ground_truth import GroundTruth
+    from amr_description.simulation.topics.sensor_manager import SensorManager
 
 _WORLD = '/mujoco_sim/world'
 BEFORE = -NANOSECONDS
@@ -97,11 +98,15 @@ class Published:
         self._topics.recording.switch(str(folder))
 
     def _make(self) -> '_Topics':
+        from amr_description.simulation.run_recording import describe_run, RunRecording
+        from amr_description.simulation.topics.ground_truth import GroundTruth
+        from amr_description.simulation.topics.sensor_manager import SensorManager
+        from amr_description.simulation.topics.world_markers import TYPE, world_markers
+
         world, log, publisher, settings = self._world, self._log, self.publisher, self._settings
         loop, values = self.loop, _values(settings)
-        publisher.messages(_WORLD, TYPE, LATCHED).publish(
-            world_markers(MujocoWorld(settings.world, settings=settings.physics).engine)
-        )
+        markers = world_markers(MujocoWorld(settings.world, settings=settings.physics).engine)
+        publisher.messages(_WORLD, TYPE, LATCHED).publish(lambda: markers)
 
         def has_ticked(time: int) -> bool:
             return loop.latest_tick == time
@@ -147,9 +152,9 @@ class Published:
 class _Topics:
     """What is made with the first recording."""
 
-    truth: GroundTruth
-    sensors: SensorManager
-    recording: RunRecording
+    truth: 'GroundTruth'
+    sensors: 'SensorManager'
+    recording: 'RunRecording'
 
     def add(self, robot: PublishedRobot, since: int) -> None:
         spawned = robot.spawned

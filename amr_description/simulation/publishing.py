@@ -15,7 +15,6 @@ from amr_description.bag.storage import TopicMetadata
 from amr_description.control.contracts import Input, Log, Qos, Severity
 from amr_description.control.plugin_errors import describe
 from amr_description.control.recorded_commands import each_new
-from amr_description.messages.encoders import encoder_of, PlainForm
 from amr_description.messages.parts import fill_stamp
 from amr_description.simulation.topics.advertising import Encode
 
@@ -113,27 +112,22 @@ class PlainMessages:
     def __init__(self, metadata: TopicMetadata) -> None:
         """Publish nothing yet."""
         self.metadata = metadata
-        self._latest = b''
+        self._latest: Callable[[], bytes] | None = None
         self._is_latched = metadata.offered_qos_profiles[0].durability == 'transient_local'
         self._sink: Sink | None = None
 
-    @property
-    def is_heard(self) -> bool:
-        """Whether a message is recorded, or kept for that."""
-        return self._is_latched or self._sink is not None
-
-    def publish(self, data: bytes) -> None:
-        """Publish a message now."""
+    def publish(self, make: Callable[[], bytes]) -> None:
+        """Publish a message now, which is made if somebody records, or when somebody does."""
         if self._is_latched:
-            self._latest = data
+            self._latest = make
         if self._sink is not None:
-            self._sink(data)
+            self._sink(make())
 
     def attach(self, recorder: 'RunRecorder | None') -> None:
         """Record from now on, what is latched first; None: no more."""
         self._sink = None if recorder is None else recorder.sink_of_messages(self.metadata)
-        if self._sink is not None and self._latest:
-            self._sink(self._latest)
+        if self._sink is not None and self._latest is not None:
+            self._sink(self._latest())
 
 
 class PlainInput:
@@ -240,6 +234,8 @@ class PlainPublisher:
 
 
 def _clock_encoder() -> Encode:
+    from amr_description.messages.encoders import encoder_of, PlainForm
+
     return encoder_of(
         int, _CLOCK, lambda time, message: fill_stamp(time, message.clock), PlainForm(_CLOCK)
     )

@@ -33,7 +33,7 @@ FEW_LINES = 80
 # shown.py and what it takes.
 BUDGETS = {
     'modules': 822,  # trusted_files.py: the map server asks it, too
-    'code lines': 90_210,  # what a request may name
+    'code lines': 90_219,  # what a request may name
     'small modules of one importer beside them': 45,
     'class names used twice': 106,
     'modules excused from a check of types': 46,
