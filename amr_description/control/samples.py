@@ -7,6 +7,7 @@ Stamps are integer nanoseconds; quaternions are (x, y, z, w), as everywhere in R
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from amr_description.model.frames import Transform, Vector
 
@@ -76,8 +77,7 @@ class BodyOdometrySample:
     frames: Frames
 
 
-@dataclass(frozen=True, slots=True)
-class JointStateSample:
+class JointStateSample(NamedTuple):
     """A sensor_msgs/JointState; all four tuples have one length, NaN: not known."""
 
     stamp: int
@@ -102,8 +102,7 @@ class DynamicLayout:
     """Of each of them."""
 
 
-@dataclass(frozen=True, slots=True)
-class DynamicJointStateSample:
+class DynamicJointStateSample(NamedTuple):
     """A control_msgs/DynamicJointState: state interfaces of every kind."""
 
     stamp: int

@@ -9,6 +9,7 @@ the field.
 """
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 import importlib
 from typing import Any, TYPE_CHECKING
 
@@ -27,8 +28,11 @@ class PlainMessage:
 
     def __init__(self, type_name: str) -> None:
         """Make a message of defaults; raises KeyError: its type is not known."""
-        for field in fields_of(type_name):
-            setattr(self, field.name, _default(field))
+        simple, made = _template(type_name)
+        values = self.__dict__
+        values.update(simple)
+        for field in made:
+            values[field.name] = _default(field)
 
     def __repr__(self) -> str:
         return f'PlainMessage({self.__dict__})'
@@ -96,16 +100,35 @@ def _filled(type_name: str, values: Any, path: str) -> PlainMessage:
             f"Value '{values}' is expected to be a dictionary but is a {type(values).__name__}",
             path,
         )
-    message = PlainMessage(type_name)
-    fields = {each.name: each for each in fields_of(type_name)}
+    fields = _fields_by_name(type_name)
+    given: dict[str, Any] = {}
     for name, value in values.items():
         if name not in fields:
             last = type_name.rpartition('/')[2]
             raise _misfit(
                 f"'{last}' object has no attribute '{name}'; it has {', '.join(fields)}", path
             )
-        setattr(message, name, _value(fields[name], value, f'{path}.{name}'.lstrip('.')))
+        given[name] = _value(fields[name], value, f'{path}.{name}'.lstrip('.'))
+    message = PlainMessage.__new__(PlainMessage)
+    simple, made = _template(type_name)
+    message.__dict__.update(simple)  # in the order of the fields; then what takes their places
+    message.__dict__.update({f.name: _default(f) for f in made if f.name not in given})
+    message.__dict__.update(given)
     return message
+
+
+@cache
+def _fields_by_name(type_name: str) -> dict[str, Field]:
+    return {each.name: each for each in fields_of(type_name)}
+
+
+@cache
+def _template(type_name: str) -> tuple[dict[str, Any], tuple[Field, ...]]:
+    """Return the defaults of all fields, and those whose default is made anew each time."""
+    fields = fields_of(type_name)
+    made = [each for each in fields if each.is_array or each.type not in {*NUMBERS, *TEXTS}]
+    simple = {each.name: None if each in made else _default(each) for each in fields}
+    return simple, tuple(made)
 
 
 def _value(field: Field, value: Any, path: str) -> Any:

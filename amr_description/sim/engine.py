@@ -86,8 +86,7 @@ class Engine:
         self.spec = spec
         self.generation = 0
         self._timestep = timestep
-        self._steps = 0
-        self._time_at_step_0 = 0
+        self._time = 0
         self._kinematics_at: tuple[int, int] | None = None
         spec.option.timestep = timestep / NANOSECONDS
         self.rollers = RollerContacts()
@@ -99,12 +98,12 @@ class Engine:
 
     @property
     def time(self) -> int:
-        """Simulated time, ns: a count of steps, never a sum of floats."""
-        return self._time_at_step_0 + self._steps * self._timestep
+        """Simulated time, ns: of whole steps, never a sum of floats."""
+        return self._time
 
     @time.setter
     def time(self, time: int) -> None:
-        self._time_at_step_0, self._steps = time, 0
+        self._time = time
         self.data.time = time / NANOSECONDS
         self.invalidate_kinematics()
 
@@ -117,7 +116,6 @@ class Engine:
     def timestep(self, timestep: int) -> None:
         if timestep <= 0:
             raise SimulationError(f'a physics step of {timestep} ns is asked; it must be positive')
-        self._time_at_step_0, self._steps = self.time, 0
         self._timestep = timestep
         self.invalidate_kinematics()
         seconds = timestep / NANOSECONDS
@@ -137,7 +135,7 @@ class Engine:
             self._solver.step(self.model, self.data, count)
         else:
             self.rollers.step(self.model, self.data, count)
-        self._steps += count
+        self._time += count * self._timestep
 
     def _bind(self) -> None:
         """Take the present model, which was compiled anew."""
@@ -155,7 +153,7 @@ class Engine:
         spec.option.timestep = timestep / NANOSECONDS
         model = spec.compile()
         self.spec, self.model, self.data = spec, model, mujoco.MjData(model)
-        self._timestep, self._steps, self._time_at_step_0 = timestep, 0, 0
+        self._timestep, self._time = timestep, 0
         self._kinematics_at = None
         self._bind()
         self.generation += 1
@@ -176,7 +174,7 @@ class Engine:
         """Set the time to 0, the state to that of the model, all commands to zero."""
         mujoco.mj_resetData(self.model, self.data)
         self._solver.begin(self.model)
-        self._time_at_step_0 = self._steps = 0
+        self._time = 0
         self._kinematics_at = None
 
     def invalidate_kinematics(self) -> None:
@@ -190,7 +188,7 @@ class Engine:
         After ``mj_step`` they lag one step behind ``qpos``. Nothing that the next step starts from
         is recomputed, so that reading the world does not change its future.
         """
-        now = (self.generation, self._steps)
+        now = (self.generation, self._time)
         if self._kinematics_at == now:
             return
         mujoco.mj_kinematics(self.model, self.data)

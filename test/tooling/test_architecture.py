@@ -29,11 +29,11 @@ MOST_LINES_OF_A_FUNCTION = 60
 MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it. The last to
-# raise them were the recording without ROS: cdr/, messages/, simulation/topics/; and its page:
-# shown.py and what it takes.
+# raise them were the recording without ROS: cdr/, messages/, simulation/topics/; its page:
+# shown.py and what it takes; and what saves microseconds of its cycles.
 BUDGETS = {
     'modules': 822,  # trusted_files.py: the map server asks it, too
-    'code lines': 90_219,  # what a request may name
+    'code lines': 90_238,  # what a request may name
     'small modules of one importer beside them': 45,
     'class names used twice': 106,
     'modules excused from a check of types': 46,
