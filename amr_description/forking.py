@@ -37,7 +37,7 @@ _OF_EACH_NODE = (
 _PR_SET_NAME = 15  # linux/prctl.h
 
 
-class Request(NamedTuple):
+class ForkRequest(NamedTuple):
     """What to fork."""
 
     command: Sequence[str]
@@ -111,7 +111,7 @@ def note_files_of_modules() -> None:
     inspect.getmodule(sys._getframe())
 
 
-def _serve_requests(connection: socket.socket) -> Request | None:
+def _serve_requests(connection: socket.socket) -> ForkRequest | None:
     """Fork a program for each request; return it there, and None when the orchestrator is gone."""
     tracing = ForkTracing()
     while True:
@@ -137,7 +137,7 @@ def _serve_requests(connection: socket.socket) -> Request | None:
                     os.dup2(output, standard)
                 os.close(output)
                 os.setsid()
-                return Request(*json.loads(packet))
+                return ForkRequest(*json.loads(packet))
             os.write(writer, str(pid).encode())
             os._exit(0)
         tracing.after_fork_in_parent()
@@ -148,7 +148,7 @@ def _serve_requests(connection: socket.socket) -> Request | None:
             os.close(fd)
 
 
-def _run(request: Request) -> None:
+def _run(request: ForkRequest) -> None:
     """Run a Python file as the main program."""
     command = list(request.command)
     _name_process(command)

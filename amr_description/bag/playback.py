@@ -3,8 +3,8 @@
 """
 When each message of a recording is due; neither a thread nor a clock of its own.
 
-Whoever plays calls :meth:`Playback.poll` until it returns nothing, and again after
-:meth:`Playback.wait_time`, or when something has changed.
+Whoever plays calls :meth:`BagPlayback.poll` until it returns nothing, and again after
+:meth:`BagPlayback.wait_time`, or when something has changed.
 """
 
 from collections import deque
@@ -37,7 +37,7 @@ class PlaybackOptions:
     """Messages that may be read before they are due."""
 
 
-class Recording(Protocol):
+class PlayedRecording(Protocol):
     """What is played."""
 
     @property
@@ -51,7 +51,7 @@ class Recording(Protocol):
         """Return the messages that a subscription which begins at that time would still get."""
 
 
-class Playback:
+class BagPlayback:
     """
     The state of playing a recording.
 
@@ -60,7 +60,7 @@ class Playback:
     """
 
     def __init__(
-        self, recording: Recording, options: PlaybackOptions, steady: Callable[[], int]
+        self, recording: PlayedRecording, options: PlaybackOptions, steady: Callable[[], int]
     ) -> None:
         """
         Begin to play.

@@ -20,7 +20,7 @@ def _all(_topic: TopicMetadata) -> bool:
 
 
 @dataclass(frozen=True)
-class Output:
+class RewrittenBag:
     """A bag that is written; times are ns."""
 
     folder: Path
@@ -35,7 +35,7 @@ class Output:
     writer: WriterOptions = field(default_factory=WriterOptions)
 
 
-def rewrite(readers: Sequence[BagReader], outputs: Sequence[Output]) -> list[int]:
+def rewrite(readers: Sequence[BagReader], outputs: Sequence[RewrittenBag]) -> list[int]:
     """
     Write bags of the messages of others, and return how many each has.
 
@@ -77,7 +77,7 @@ def rewrite(readers: Sequence[BagReader], outputs: Sequence[Output]) -> list[int
 class _Writer:
     """One of the bags; it is removed by ``made`` unless it is complete."""
 
-    def __init__(self, output: Output, recording: BagRecording, made: ExitStack) -> None:
+    def __init__(self, output: RewrittenBag, recording: BagRecording, made: ExitStack) -> None:
         self._first = 0 if output.start is None else output.start
         self._last = 2**63 if output.end is None else output.end
         self._topics = recording.topics

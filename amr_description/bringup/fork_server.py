@@ -14,8 +14,8 @@ An executable of another package, one with a prefix such as a debugger, one for 
 one whose environment changes the interpreter are executed as ever; all are once the server has
 ended.
 
-Requests and answers are single packets: a :class:`~amr_description.forking.Request` as JSON, with
-the file for stdout and stderr; the pid. The server's first packet says that it is ready.
+Requests and answers are single packets: a :class:`~amr_description.forking.ForkRequest` as JSON,
+with the file for stdout and stderr; the pid. The server's first packet says that it is ready.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -26,7 +26,7 @@ import socket
 import subprocess
 
 from amr_description.entry import python_command
-from amr_description.forking import command_line, LARGEST_PACKET, READY, Request
+from amr_description.forking import command_line, ForkRequest, LARGEST_PACKET, READY
 
 _LOAD_THEIR_OWN = frozenset({'mujoco_sim', 'viewer'})
 """Executables most of whose modules no other one of a stack needs."""
@@ -134,7 +134,7 @@ class ForkServer:
         Raises:
             OSError: the server has ended or does not answer; it has started nothing then.
         """
-        packet = json.dumps(Request(command, dict(environment))).encode()
+        packet = json.dumps(ForkRequest(command, dict(environment))).encode()
         try:
             socket.send_fds(self._socket, [packet], [output])
             answer = self._answer()

@@ -14,7 +14,13 @@ from os import PathLike
 from pathlib import Path
 import re
 
-from amr_description.bringup.conditions import Condition, NameOf, Scope, StackState, Verdict
+from amr_description.bringup.conditions import (
+    Condition,
+    NameOf,
+    Scope,
+    StackState,
+    Verdict,
+)
 from amr_description.bringup.validation import require, TEXT, TOKEN, Validator
 from amr_description.errors import BringupError
 

@@ -6,7 +6,15 @@ A place in a serialized message (:mod:`amr_description.ros.cdr`), which goes on 
 
 import struct
 
-from amr_description.cdr.layouts import advance_by, ALIGNMENT, Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import (
+    advance_by,
+    ALIGNMENT,
+    FieldGroup,
+    Layout,
+    Many,
+    Number,
+    Text,
+)
 
 BEGIN = 4
 """Bytes before the first field."""
@@ -54,14 +62,14 @@ class Cursor:
         match layout:
             case Text(width=width):
                 self.go(self.count() * width)
-            case Group(advance=None, fields=fields):
+            case FieldGroup(advance=None, fields=fields):
                 for _, field in fields:
                     self.skip(field)
             case Many(count=None, element=element):
                 self.skip_elements(element, self.count())
             case Many(count=int(count), element=element):
                 self.skip_elements(element, count)
-            case Number(advance=advance) | Group(advance=advance) if advance is not None:
+            case Number(advance=advance) | FieldGroup(advance=advance) if advance is not None:
                 self.at += advance[self.at % ALIGNMENT]
             case _:
                 raise AssertionError(layout)

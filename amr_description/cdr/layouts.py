@@ -76,7 +76,7 @@ class Text:
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class FieldGroup:
     """A message: its type, its fields in their order, and what that makes (:data:`Advance`)."""
 
     name: str
@@ -97,17 +97,17 @@ class Many:
     advance: Advance | None
 
 
-Layout: TypeAlias = Number | Text | Group | Many
+Layout: TypeAlias = Number | Text | FieldGroup | Many
 
 
 _HIDDEN = Number('B', 'uint8')
 """The only member of a message without fields, which has no name in Python."""
 
 
-def group(name: str, fields: Sequence[tuple[str, Layout]]) -> Group:
+def group(name: str, fields: Sequence[tuple[str, Layout]]) -> FieldGroup:
     """Return the layout of a message of these fields, by the name of its type."""
     parts = [layout for _, layout in fields] or [_HIDDEN]
-    return Group(name, tuple(fields), _sum(parts))
+    return FieldGroup(name, tuple(fields), _sum(parts))
 
 
 def many(element: Layout, count: int | None) -> Many:

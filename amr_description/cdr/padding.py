@@ -3,21 +3,21 @@
 """Serialized messages with zeros where bytes only align numbers, whoever has made them."""
 
 from amr_description.cdr.cursor import BEGIN, Cursor
-from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import FieldGroup, Layout, Many, Number, Text
 
 
-def without_padding(layout: Group, data: bytes) -> bytes:
+def without_padding(layout: FieldGroup, data: bytes) -> bytes:
     """
     Return a serialized message with zeros where bytes only align, or fill the end.
 
     Raises ValueError, struct.error: these bytes are no such message.
     """
-    copy = _Copy(data)
+    copy = _PaddingCopy(data)
     copy.part(layout)
     return bytes(copy.made[: BEGIN + copy.at])
 
 
-class _Copy(Cursor):
+class _PaddingCopy(Cursor):
     """Goes through a message and copies what is not padding."""
 
     def __init__(self, data: bytes) -> None:
@@ -31,7 +31,7 @@ class _Copy(Cursor):
                 self._numbers(layout, 1)
             case Text(width=width):
                 self._copy_to(self._length() * width)
-            case Group(fields=fields):
+            case FieldGroup(fields=fields):
                 for _, field in fields:
                     self.part(field)
                 if not fields:  # its only member is hidden

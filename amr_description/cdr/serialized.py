@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from amr_description.cdr.cursor import BEGIN, Cursor, ORDERS
-from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import FieldGroup, Layout, Many, Number, Text
 
 _HEAD = b'\0\1\0\0'
 """Plain CDR, little endian."""
@@ -23,7 +23,7 @@ _ORDER = '<'
 _COUNT = struct.Struct('<I')
 
 
-def serialized(layout: Group, message: Any) -> bytes:
+def serialized(layout: FieldGroup, message: Any) -> bytes:
     """
     Return the bytes of a message.
 
@@ -40,7 +40,7 @@ def _put(data: bytearray, layout: Layout, value: Any) -> None:
             _put_numbers(data, layout, (value,))
         case Text():
             _put_text(data, layout, value)
-        case Group(fields=fields):
+        case FieldGroup(fields=fields):
             for name, field in fields:
                 _put(data, field, getattr(value, name))
             if not fields:  # its only member is hidden
@@ -87,7 +87,7 @@ def _put_count(data: bytearray, count: int) -> None:
     data += _COUNT.pack(count)
 
 
-def fill(layout: Group, data: bytes, message: Any, new: Callable[[str], Any]) -> None:
+def fill(layout: FieldGroup, data: bytes, message: Any, new: Callable[[str], Any]) -> None:
     """
     Read bytes into a message, whose fields are set.
 
@@ -108,7 +108,7 @@ class _Filler(Cursor):
         super().__init__(data)
         self._new = new
 
-    def into(self, layout: Group, message: Any) -> None:
+    def into(self, layout: FieldGroup, message: Any) -> None:
         for name, field in layout.fields:
             setattr(message, name, self._part(field))
         if not layout.fields:
@@ -120,7 +120,7 @@ class _Filler(Cursor):
                 return self._numbers(layout, 1)[0]
             case Text():
                 return self._text(layout)
-            case Group(name=name):
+            case FieldGroup(name=name):
                 message = self._new(name)
                 self.into(layout, message)
                 return message

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import struct
 from typing import Any, NamedTuple
 
-from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import FieldGroup, Layout, Many, Number, Text
 
 _ENCAPSULATION = bytes((0, 1, 0, 0))
 """Plain CDR, little endian, no options."""
@@ -50,7 +50,7 @@ class Template:
 
 
 def template_of(
-    layout: Group, message: Any, changing: Collection[str], *, blocks: Collection[str] = ()
+    layout: FieldGroup, message: Any, changing: Collection[str], *, blocks: Collection[str] = ()
 ) -> Template:
     """
     Return the template of a message.
@@ -134,7 +134,7 @@ class _Builder:
 
 
 def _add_message(
-    builder: _Builder, layout: Group, message: Any, prefix: str, changing: _Changing
+    builder: _Builder, layout: FieldGroup, message: Any, prefix: str, changing: _Changing
 ) -> None:
     for name, part in layout.fields:
         path = f'{prefix}{name}'
@@ -163,7 +163,7 @@ def _add(builder: _Builder, value: Any, part: Layout, path: str, changing: _Chan
             builder.add(code, value)
         case Text(width=1):
             builder.add_text(value)
-        case Group():
+        case FieldGroup():
             _add_message(builder, part, value, f'{path}.', changing)
         case _:
             raise TypeError(f'{path} is of a type that is not supported: {part}')

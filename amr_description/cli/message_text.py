@@ -26,7 +26,7 @@ _CUT = '...'
 _KEPT = 200  # letters of a string whose text in YAML is kept for the next message
 
 
-class _Dumper(yaml.SafeDumper):
+class _MessageDumper(yaml.SafeDumper):
     """
     Writes each value where it stands, never a reference to an equal one.
 
@@ -42,7 +42,7 @@ class _Dumper(yaml.SafeDumper):
         return self.represent_mapping('tag:yaml.org,2002:map', data, flow_style=False)
 
 
-_Dumper.add_representer(dict, _Dumper.represent_block)
+_MessageDumper.add_representer(dict, _MessageDumper.represent_block)
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def dump_with_pyyaml(value: Any, *, flow_style: bool = False, sort_keys: bool = 
     """Return plain data as YAML."""
     return yaml.dump(
         value,
-        Dumper=_Dumper,
+        Dumper=_MessageDumper,
         allow_unicode=True,
         width=sys.maxsize,
         default_flow_style=flow_style,

@@ -110,7 +110,7 @@ class WindowStatistics:
         )
 
 
-class Delay(WindowStatistics):
+class DelayStatistics(WindowStatistics):
     """The delays of the messages of a window, s."""
 
     def __str__(self) -> str:
@@ -148,15 +148,15 @@ class DelayMeter:
         """Whether the window has any delay, reported or not."""
         return bool(self._delays)
 
-    def report(self) -> Delay | None:
+    def report(self) -> DelayStatistics | None:
         """Return the delays if there are messages since the last report, else None."""
         if not self._has_new:
             return None
         self._has_new = False
-        return Delay.of(self._delays)
+        return DelayStatistics.of(self._delays)
 
 
-class Rate(WindowStatistics):
+class RateStatistics(WindowStatistics):
     """The intervals between the messages of a window, s."""
 
     @property
@@ -189,7 +189,7 @@ class RateMeter:
         self._last = now
         return True
 
-    def report(self) -> Rate | None:
+    def report(self) -> RateStatistics | None:
         """Return the rate if messages span a second since the last report, else None."""
         if self._last is None or not self._intervals:
             return None
@@ -198,4 +198,4 @@ class RateMeter:
         if self._last < self._reported + _REPORT_PERIOD:
             return None
         self._reported = self._last
-        return Rate.of(self._intervals)
+        return RateStatistics.of(self._intervals)

@@ -63,7 +63,7 @@ class Thresholds:
 
 
 @dataclass(frozen=True)
-class Diagnostics:
+class DiagnosticThresholds:
     """The thresholds of warnings and errors on ``/diagnostics``."""
 
     controller_manager: ManagerThresholds = group('controller_manager', ManagerThresholds)

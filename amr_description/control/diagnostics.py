@@ -14,7 +14,7 @@ import enum
 
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.diagnostic_thresholds import (
-    Diagnostics,
+    DiagnosticThresholds,
     ManagerThresholds,
     Thresholds,
 )
@@ -90,7 +90,7 @@ class Report:
 
 def reports(
     measured: Measurements | None,
-    thresholds: Diagnostics,
+    thresholds: DiagnosticThresholds,
     update_rate: int,
     *,
     has_description: bool = True,
@@ -113,7 +113,9 @@ def reports(
     }
 
 
-def controllers_activity(measured: Measurements | None, thresholds: Diagnostics) -> Report:
+def controllers_activity(
+    measured: Measurements | None, thresholds: DiagnosticThresholds
+) -> Report:
     """Check the controllers; ``measured``: None without hardware."""
     report = Report()
     controllers = measured.snapshot.controllers if measured else ()
@@ -138,7 +140,9 @@ def controllers_activity(measured: Measurements | None, thresholds: Diagnostics)
     return report
 
 
-def hardware_components_activity(measured: Measurements | None, thresholds: Diagnostics) -> Report:
+def hardware_components_activity(
+    measured: Measurements | None, thresholds: DiagnosticThresholds
+) -> Report:
     """Check the hardware components; ``measured``: None without hardware."""
     report = Report()
     if not measured:
@@ -169,7 +173,7 @@ def hardware_components_activity(measured: Measurements | None, thresholds: Diag
 
 def controller_manager_activity(
     measured: Measurements | None,
-    thresholds: Diagnostics,
+    thresholds: DiagnosticThresholds,
     update_rate: int,
     has_description: bool,
 ) -> Report:

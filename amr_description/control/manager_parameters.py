@@ -7,7 +7,7 @@ that every controller has.
 
 from dataclasses import dataclass
 
-from amr_description.control.diagnostic_thresholds import Diagnostics
+from amr_description.control.diagnostic_thresholds import DiagnosticThresholds
 from amr_description.parameters import group, parameter
 
 MOST_CYCLES = 100_000
@@ -86,7 +86,7 @@ class ManagerTable:
     )
     defaults: Defaults = group('defaults', Defaults)
     overruns: Overruns = group('overruns', Overruns)
-    diagnostics: Diagnostics = group('diagnostics.threshold', Diagnostics)
+    diagnostics: DiagnosticThresholds = group('diagnostics.threshold', DiagnosticThresholds)
     diagnostic_updater: DiagnosticUpdater = group('diagnostic_updater', DiagnosticUpdater)
 
 

@@ -57,7 +57,7 @@ class Travel:
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
+class CalibrationRun:
     """One drive from rest to rest."""
 
     name: str
@@ -68,7 +68,9 @@ class Run:
     truth: Travel
 
     @classmethod
-    def from_odometry(cls, name: str, odometry: Travel, truth: Travel, used: Geometry) -> 'Run':
+    def from_odometry(
+        cls, name: str, odometry: Travel, truth: Travel, used: Geometry
+    ) -> 'CalibrationRun':
         """
         Compute the wheels' angles from odometry.
 
@@ -121,7 +123,9 @@ class Path:
         return Travel(self.distance, self.turn)
 
 
-def fit(straight: Sequence[Run], turning: Sequence[Run], separation: float) -> Geometry:
+def fit(
+    straight: Sequence[CalibrationRun], turning: Sequence[CalibrationRun], separation: float
+) -> Geometry:
     """
     Fit the three multipliers.
 
@@ -151,14 +155,16 @@ def fit(straight: Sequence[Run], turning: Sequence[Run], separation: float) -> G
     return geometry
 
 
-def yaw_error(run: Run, geometry: Geometry) -> float:
+def yaw_error(run: CalibrationRun, geometry: Geometry) -> float:
     """Return |turn by odometry / true turn - 1|; NaN for a run that does not turn."""
     if abs(run.truth.turn) < math.radians(30.0):
         return math.nan
     return abs(run.odometry(geometry).turn / run.truth.turn - 1.0)
 
 
-def _side(name: str, travel: Sequence[float], runs: Sequence[Run]) -> tuple[float, float]:
+def _side(
+    name: str, travel: Sequence[float], runs: Sequence[CalibrationRun]
+) -> tuple[float, float]:
     """Fit the true distance, and half the true turn, to the travel of a side (least squares)."""
     square = _sum_of_products(travel, travel)
     if not square:

@@ -97,7 +97,7 @@ class Reason(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Hello:
+class BoardHello:
     """``HELLO``."""
 
     number: int
@@ -166,7 +166,7 @@ class Error:
     reason: Reason
 
 
-Question: TypeAlias = Hello | Get | Arm | Set | Disarm
+Question: TypeAlias = BoardHello | Get | Arm | Set | Disarm
 Answer: TypeAlias = Board | State | Error
 Message: TypeAlias = Question | Answer
 
@@ -224,7 +224,7 @@ _VELOCITY = _Field(
 )
 
 _LAYOUTS: dict[type[Message], tuple[_Field, ...]] = {
-    Hello: (_U16, _U16),
+    BoardHello: (_U16, _U16),
     Get: (_U16,),
     Arm: (_U16, _U16),
     Set: (_U16, _VELOCITY, _VELOCITY),

@@ -40,7 +40,7 @@ MESSAGE_NAME = re.compile(r'[A-Z][A-Za-z0-9]*')
 LOWER_CASE = 'lower-case letters, digits and single underscores, a letter first'
 
 
-class Fault(NamedTuple):
+class DefinitionFault(NamedTuple):
     """What is wrong, and where; line and column count from 1."""
 
     line: int
@@ -61,7 +61,7 @@ class FileFault(NamedTuple):
     """A fault and its file, relative to the package."""
 
     path: Path
-    fault: Fault
+    fault: DefinitionFault
 
     def __str__(self) -> str:
         """Return ``path:line:column: text``, on one line."""
@@ -69,10 +69,10 @@ class FileFault(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Definition:
+class InterfaceDefinition:
     """An interface file that has been read."""
 
-    faults: list[Fault]
+    faults: list[DefinitionFault]
     references: list[Reference]
 
 
@@ -85,7 +85,7 @@ class _Line(NamedTuple):
     rest_column: int
 
 
-def read_definition(text: str, path: Path) -> Definition:
+def read_definition(text: str, path: Path) -> InterfaceDefinition:
     """Return what is wrong in an interface file, and the message types that it refers to."""
     faults = list(_escapes(text)) + list(_file_name(path))
     references: list[Reference] = []
@@ -101,9 +101,11 @@ def read_definition(text: str, path: Path) -> Definition:
         if not content:
             continue
         if set(content.strip()) == {'-'} and len(content.strip()) > 1:
-            faults.append(Fault(number, 1, _no_separator(whole, path)))
+            faults.append(DefinitionFault(number, 1, _no_separator(whole, path)))
         elif content[0] == ' ':
-            faults.append(Fault(number, 1, 'a line may not begin with a space; remove it'))
+            faults.append(
+                DefinitionFault(number, 1, 'a line may not begin with a space; remove it')
+            )
         else:
             kind, _, rest = content.partition(' ')
             column = len(content) - len(rest.lstrip()) + 1
@@ -113,10 +115,10 @@ def read_definition(text: str, path: Path) -> Definition:
             if not any(fault.column == 1 for fault in found):
                 references += _references(line)
     faults += _separator_faults(separators, path, len(lines))
-    return Definition(sorted(faults), references)
+    return InterfaceDefinition(sorted(faults), references)
 
 
-def _escapes(text: str) -> Iterator[Fault]:
+def _escapes(text: str) -> Iterator[DefinitionFault]:
     """Yield backslashes that rosidl cannot read: it takes comments, too, for strings of C."""
     for number, line in enumerate(text.splitlines(), 1):
         comment = line.partition('#')[2].lstrip('#')
@@ -127,14 +129,14 @@ def _escapes(text: str) -> Iterator[Fault]:
             start = len(error.object[: error.start].decode(errors='replace'))
             column = len(line) - len(comment) + start + 1
             found = f'rosidl cannot read the backslash in this comment: {error.reason}'
-            yield Fault(number, column, f'{found}; write it without')
+            yield DefinitionFault(number, column, f'{found}; write it without')
 
 
-def _file_name(path: Path) -> Iterator[Fault]:
+def _file_name(path: Path) -> Iterator[DefinitionFault]:
     if not MESSAGE_NAME.fullmatch(path.stem):
         better = ''.join(part[:1].upper() + part[1:] for part in re.split(r'[\W_]+', path.stem))
         found = f'the file is called {path.name}, which makes no name of a type'
-        yield Fault(1, 1, f'{found}; call it {better or "Name"}{path.suffix}')
+        yield DefinitionFault(1, 1, f'{found}; call it {better or "Name"}{path.suffix}')
 
 
 def _no_separator(whole: str, path: Path) -> str:
@@ -143,24 +145,28 @@ def _no_separator(whole: str, path: Path) -> str:
     return f'the line between two parts is {SEPARATOR!r} alone, got {whole!r}'
 
 
-def _separator_faults(separators: list[int], path: Path, count: int) -> Iterator[Fault]:
+def _separator_faults(separators: list[int], path: Path, count: int) -> Iterator[DefinitionFault]:
     parts = PARTS[path.suffix]
     wanted = f'{" and ".join(parts[:-1])} and {parts[-1]}' if len(parts) > 1 else ''
     if len(separators) < len(parts) - 1:
         needed = f'{len(parts) - 1} lines {SEPARATOR}, got {len(separators)}'
         needed = needed if len(parts) > 2 else f'a line {SEPARATOR}, got none'
-        yield Fault(max(count, 1), 1, f'between {wanted} there must be {needed}')
+        yield DefinitionFault(max(count, 1), 1, f'between {wanted} there must be {needed}')
     for number in separators[len(parts) - 1 :]:
-        yield Fault(number, 1, f'one {SEPARATOR} too many: a {path.suffix} file has {wanted} only')
+        yield DefinitionFault(
+            number, 1, f'one {SEPARATOR} too many: a {path.suffix} file has {wanted} only'
+        )
 
 
-def _line_faults(line: _Line, names: set[str]) -> Iterator[Fault]:
+def _line_faults(line: _Line, names: set[str]) -> Iterator[DefinitionFault]:
     fault = _type_fault(line.type)
     if fault:
-        yield Fault(line.number, 1, fault)
+        yield DefinitionFault(line.number, 1, fault)
     if not line.rest:
         wanted = 'a field is written TYPE NAME, a constant TYPE NAME=VALUE'
-        yield Fault(line.number, len(line.type) + 1, f'{line.type!r} without a name; {wanted}')
+        yield DefinitionFault(
+            line.number, len(line.type) + 1, f'{line.type!r} without a name; {wanted}'
+        )
         return
     is_constant = '=' in line.rest
     name = re.split('[ =]', line.rest, maxsplit=1)[0]
@@ -171,7 +177,7 @@ def _line_faults(line: _Line, names: set[str]) -> Iterator[Fault]:
         wrong = f'{name!r} stands here twice; give it another name'
     names.add(name)
     if wrong:
-        yield Fault(line.number, line.rest_column, wrong)
+        yield DefinitionFault(line.number, line.rest_column, wrong)
     elif not fault:
         yield from _value_faults(line, name, is_constant=is_constant)
 
@@ -234,7 +240,7 @@ def _constant_name_fault(name: str, line: _Line) -> str:
     return ''
 
 
-def _value_faults(line: _Line, name: str, *, is_constant: bool) -> Iterator[Fault]:
+def _value_faults(line: _Line, name: str, *, is_constant: bool) -> Iterator[DefinitionFault]:
     """Yield what rosidl says of the value of a constant or the default of a field."""
     from rosidl_adapter.parser import Constant, Field, Type
 
@@ -247,7 +253,9 @@ def _value_faults(line: _Line, name: str, *, is_constant: bool) -> Iterator[Faul
             Field(Type(line.type, context_package_name='a'), name, value or None)
     except Exception as error:  # rosidl has no common base
         column = line.rest_column + len(line.rest) - len(value)
-        yield Fault(line.number, column, f'{name}: {error}' if value else f'{name} has no value')
+        yield DefinitionFault(
+            line.number, column, f'{name}: {error}' if value else f'{name} has no value'
+        )
 
 
 def _references(line: _Line) -> list[Reference]:
@@ -299,7 +307,9 @@ def check_package(package: InterfacePackage, known: Mapping[str, Collection[str]
             text = (package.folder / path).read_bytes().decode()
         except UnicodeDecodeError as error:
             before = error.object[: error.start]
-            where = Fault(before.count(b'\n') + 1, error.start - before.rfind(b'\n'), str(error))
+            where = DefinitionFault(
+                before.count(b'\n') + 1, error.start - before.rfind(b'\n'), str(error)
+            )
             faults.append(FileFault(path, where))
             continue
         definition = read_definition(text, path)
@@ -311,7 +321,7 @@ def check_package(package: InterfacePackage, known: Mapping[str, Collection[str]
             is_own = each.package in ('', package.name)
             text = _own_fault(each.name, package) if is_own else _foreign_fault(each, known)
             if text:
-                faults.append(FileFault(path, Fault(each.line, each.column, text)))
+                faults.append(FileFault(path, DefinitionFault(each.line, each.column, text)))
             elif not is_own:
                 used.add((each.package, each.name))
     faults += _loops(package.name, uses)
@@ -354,5 +364,5 @@ def _loops(name: str, uses: Mapping[Path, list[Reference]]) -> list[FileFault]:
         path = next(path for path in uses if path.suffix == '.msg' and path.stem == loop[0])
         at = next(each for each in uses[path] if each.name == loop[1])
         text = f'messages contain each other: {" -> ".join(loop)}'
-        return [FileFault(path, Fault(at.line, at.column, text))]
+        return [FileFault(path, DefinitionFault(at.line, at.column, text))]
     return []

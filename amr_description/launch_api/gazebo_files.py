@@ -39,7 +39,7 @@ _WITH_A_VALUE_IN_CLASSIC = (
 )  # fmt: skip
 
 
-class Page(Action):
+class GazeboPage(Action):
     """The page of the viewer, in the place of a window of Gazebo."""
 
 
@@ -122,7 +122,7 @@ def simulator(world: World) -> list[Action]:
                 on_exit=Shutdown(reason='the simulator has ended'),
             )
         )
-    return [*actions, Page()] if world.has_window else actions
+    return [*actions, GazeboPage()] if world.has_window else actions
 
 
 class GzServer(Action):
@@ -216,7 +216,7 @@ def _classic_server() -> LaunchDescription:
 
 
 def _page() -> LaunchDescription:
-    return LaunchDescription([Page()])
+    return LaunchDescription([GazeboPage()])
 
 
 def _nothing() -> LaunchDescription:

@@ -59,7 +59,7 @@ from amr_description.launch_api.events import OnProcessExit, Shutdown as Shutdow
 from amr_description.launch_api.files_in_place import use_files_of_package
 from amr_description.launch_api.gazebo_files import (
     classic_world_of,
-    Page,
+    GazeboPage,
     simulator,
     world_of,
 )
@@ -228,7 +228,7 @@ class Translation:
                 self._ask(entity)
             case LoadComposableNodes():
                 self._replaced.left_out |= entity.left_out(self.context)
-            case Page():
+            case GazeboPage():
                 self._add_page('the window of Gazebo')
             case _:
                 before = dict(os.environ)

@@ -38,7 +38,7 @@ _PALETTE = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Image:
+class MapImage:
     """A picture; row 0 is its top."""
 
     brightness: Floats
@@ -47,7 +47,7 @@ class Image:
     """(height, width), 0 transparent to 1 opaque; None: the file has none."""
 
 
-def read_image(data: bytes) -> Image:
+def read_image(data: bytes) -> MapImage:
     """
     Return the image of a file.
 
@@ -89,7 +89,7 @@ def _check_size(width: int, height: int) -> None:
 # Netpbm: https://netpbm.sourceforge.net/doc/pgm.html
 
 
-def _read_netpbm(data: bytes) -> Image:
+def _read_netpbm(data: bytes) -> MapImage:
     samples, is_binary = _NETPBM[data[:2]]
     (width, height, white), start = _netpbm_head(data)
     _check_size(width, height)
@@ -112,7 +112,7 @@ def _read_netpbm(data: bytes) -> Image:
             f'it ends after {len(values)} of {count} values: it is cut off, save it again'
         )
     scaled = np.clip(values / white, 0.0, 1.0).reshape(height, width, samples)
-    return Image(scaled.mean(axis=-1))
+    return MapImage(scaled.mean(axis=-1))
 
 
 def _netpbm_head(data: bytes) -> tuple[list[int], int]:
@@ -151,7 +151,7 @@ class _Head:
         return _SAMPLES[self.color]
 
 
-def _read_png(data: bytes) -> Image:
+def _read_png(data: bytes) -> MapImage:
     head, chunks = _png_parts(data)
     values = _png_samples(head, chunks.get(b'IDAT', b''))
     transparent = chunks.get(b'tRNS')
@@ -165,19 +165,19 @@ def _read_png(data: bytes) -> Image:
     elif transparent is not None and len(transparent) == 2 * head.samples:
         unseen = np.frombuffer(transparent, '>u2')
         alpha = (colors != unseen).any(axis=-1).astype(np.float64)
-    return Image((colors / white).mean(axis=-1), alpha)
+    return MapImage((colors / white).mean(axis=-1), alpha)
 
 
-def _with_palette(indices: NDArray[np.uint16], palette: bytes, alphas: bytes | None) -> Image:
+def _with_palette(indices: NDArray[np.uint16], palette: bytes, alphas: bytes | None) -> MapImage:
     colors = np.frombuffer(palette, np.uint8, len(palette) // 3 * 3).reshape(-1, 3)
     if not len(colors) or int(indices.max()) >= len(colors):
         raise MapDataError('its palette lacks a color that a pixel has')
     brightness = (colors / 255.0).mean(axis=-1)[indices]
     if alphas is None:
-        return Image(brightness)
+        return MapImage(brightness)
     opacity = np.ones(256)
     opacity[: len(alphas)] = np.frombuffer(alphas[:256], np.uint8) / 255.0
-    return Image(brightness, opacity[indices])
+    return MapImage(brightness, opacity[indices])
 
 
 def _png_parts(data: bytes) -> tuple[_Head, dict[bytes, bytes]]:

@@ -44,7 +44,7 @@ import yaml
 
 from amr_description.errors import MapDataError, MapError, MapMetadataError, ParameterError
 from amr_description.maps.grid import FREE, OccupancyGrid, OCCUPIED, UNKNOWN
-from amr_description.maps.images import Bytes, Image, pgm, png, read_image
+from amr_description.maps.images import Bytes, MapImage, pgm, png, read_image
 from amr_description.maps.pose import Pose
 from amr_description.parameter_files import load_yaml, YamlError
 from amr_description.text import encodable
@@ -227,7 +227,7 @@ def _negate(found: Mapping[str, Any]) -> bool:
     raise MapMetadataError(f"'negate' is {word!r}; it must be 0 or 1")
 
 
-def cells_of(image: Image, metadata: MapMetadata) -> NDArray[np.int8]:
+def cells_of(image: MapImage, metadata: MapMetadata) -> NDArray[np.int8]:
     """Return the cells that an image stands for, (height, width), the lowest row first."""
     shade, alpha = image.brightness, image.alpha
     if metadata.mode is MapMode.TRINARY and alpha is not None:

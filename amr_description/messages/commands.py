@@ -26,7 +26,7 @@ from amr_description.messages.writers import WRITERS
 
 
 @dataclass(frozen=True)
-class Command:
+class PlainCommand:
     """A command for an input."""
 
     port: Port
@@ -56,7 +56,7 @@ class Command:
         return serialized(layout_of(name), message)
 
 
-def command_of(port: Port, message: Any, time: int) -> Command:
+def command_of(port: Port, message: Any, time: int) -> PlainCommand:
     """
     Return the command that is sent to an input; one without a stamp gets the time.
 
@@ -70,17 +70,17 @@ def command_of(port: Port, message: Any, time: int) -> Command:
     """
     if not isinstance(message, Mapping):
         is_without = has_stamp(port.message) and getattr(message, 'stamp', None) == 0
-        return Command(port, replace(message, stamp=time) if is_without else message, None)
+        return PlainCommand(port, replace(message, stamp=time) if is_without else message, None)
     made = message_of(port.message, message)
     stamp = getattr(getattr(made, 'header', None), 'stamp', None)
     if stamp is not None and stamp.sec == stamp.nanosec == 0:
         stamp.sec, stamp.nanosec = divmod(time, NANOSECONDS)
-    return Command(port, reader_of(port)(made), made)
+    return PlainCommand(port, reader_of(port)(made), made)
 
 
-def recorded_command(port: Port, message: PlainMessage) -> Command:
+def recorded_command(port: Port, message: PlainMessage) -> PlainCommand:
     """Return the command of a message as it is. Raises AmrError: there is no converter."""
-    return Command(port, reader_of(port)(message), message)
+    return PlainCommand(port, reader_of(port)(message), message)
 
 
 def plain_message(name: str, data: bytes) -> PlainMessage:

@@ -17,7 +17,7 @@ from typing import Any
 
 import yaml
 
-from amr_description.cdr.layouts import CODES, Group, group, Layout, many, Number, Text
+from amr_description.cdr.layouts import CODES, FieldGroup, group, Layout, many, Number, Text
 
 FILE = Path(__file__).with_name('definitions.txt')
 _MARK = re.compile(r'^=== (\S+)(?: (\S+))?\n', re.MULTILINE)
@@ -75,7 +75,7 @@ def fields_of(name: str) -> tuple[Field, ...]:
 
 
 @cache
-def layout_of(name: str) -> Group:
+def layout_of(name: str) -> FieldGroup:
     """Return how a message is laid out; raises KeyError: its type is not here."""
     return group(name, [(each.name, _layout(each)) for each in fields_of(name)])
 

@@ -35,7 +35,7 @@ import math
 import struct
 from typing import Any, Protocol, TypeAlias
 
-from amr_description.cdr.layouts import Group
+from amr_description.cdr.layouts import FieldGroup
 from amr_description.cdr.serialized import serialized
 from amr_description.cdr.template import Template, template_of
 from amr_description.clock import NANOSECONDS
@@ -92,7 +92,7 @@ class Form(Protocol):
     """Messages of one type, in one of two forms: those of rclpy, or plain ones."""
 
     @property
-    def layout(self) -> Group:
+    def layout(self) -> FieldGroup:
         """How they are laid out."""
 
     def new(self) -> Any:

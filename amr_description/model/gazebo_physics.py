@@ -96,13 +96,13 @@ def gazebo_physics_of(robot: Robot) -> GazeboPhysics:
     """Return what the ``<gazebo>`` blocks of a robot say of its physics."""
     root = parse_xml(robot.text, robot.source, raise_error)
     assert root is not None, 'raise_error does not return from an error'
-    reader = _Reader(robot)
+    reader = _PhysicsReader(robot)
     for block in root.iterchildren('gazebo'):
         reader.read(block)
     return reader.result()
 
 
-class _Reader:
+class _PhysicsReader:
     """Reads one block after the other."""
 
     def __init__(self, robot: Robot) -> None:

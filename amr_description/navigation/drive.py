@@ -151,7 +151,7 @@ class ProgressCheckerSettings:
 
 
 @dataclass(frozen=True)
-class DriveSettings:
+class NavigationDriveSettings:
     """Parameters of all that drives to a goal."""
 
     controller_frequency: float = parameter(
@@ -169,7 +169,7 @@ class DriveSettings:
     recoveries: RecoverySettings = group('behaviors', RecoverySettings)
 
 
-class Status(Enum):
+class DriveStatus(Enum):
     """How a drive is going."""
 
     RUNNING = 'running'
@@ -178,7 +178,7 @@ class Status(Enum):
 
 
 @dataclass
-class Command:
+class WheelCommand:
     """What the wheels shall do now."""
 
     linear: float = 0.0
@@ -190,21 +190,21 @@ class Command:
 
 
 @dataclass
-class Drive:
+class NavigationDrive:
     """
     One goal after another, or one path, from the first step to the end.
 
     Call :meth:`step` at ``controller_frequency``, until ``status`` is no longer RUNNING.
     """
 
-    settings: DriveSettings
+    settings: NavigationDriveSettings
     outline: Points
     """(n, 2): points along the edges of the robot, m."""
     goals: Sequence[Pose]
     """In the frame of the map; at all but the last one only the position counts."""
     given_path: Sequence[Pose] = ()
     """Follow this and do not plan; ``goals`` is its end then."""
-    status: Status = Status.RUNNING
+    status: DriveStatus = DriveStatus.RUNNING
     error: NavigationError | None = None
     """Why it has failed."""
     recoveries: int = 0
@@ -239,7 +239,7 @@ class Drive:
         """How many goals have not been reached."""
         return len(self.goals) - self._index
 
-    def configure(self, settings: DriveSettings) -> None:
+    def configure(self, settings: NavigationDriveSettings) -> None:
         """Take other parameters from now on."""
         self.settings = settings
         self._follower.configure(settings.pursuit, settings.goal_checker.xy_goal_tolerance)
@@ -254,7 +254,7 @@ class Drive:
 
     def step(
         self, now: float, pose: Pose, speed: tuple[float, float], costmap: Costmap
-    ) -> Command:
+    ) -> WheelCommand:
         """
         Return what to do until the next step; standing still at the end.
 
@@ -273,16 +273,16 @@ class Drive:
 
     def _step(
         self, now: float, pose: Pose, speed: tuple[float, float], costmap: Costmap
-    ) -> Command:
+    ) -> WheelCommand:
         if self._recovery is not None:
             command = self._recovery.step(now, pose, costmap)
             if command is not None:
-                return Command(*command)
+                return WheelCommand(*command)
             self._begin_again()
         if self._has_arrived(pose) and not self._next_goal():
             if self._has_stopped(speed):
-                self.status = Status.SUCCEEDED
-            return Command()
+                self.status = DriveStatus.SUCCEEDED
+            return WheelCommand()
         self._plan(now, pose, costmap)
         self._check_progress(now, pose)
         try:
@@ -292,7 +292,7 @@ class Drive:
                 raise
             return self._wait_for_safety(now, error)
         self._unsafe_since = None
-        return Command(control.linear, control.angular, control.lookahead)
+        return WheelCommand(control.linear, control.angular, control.lookahead)
 
     def _has_arrived(self, pose: Pose) -> bool:
         """Return whether the present goal has been reached."""
@@ -370,22 +370,24 @@ class Drive:
                 f'{checker.required_movement_radius:g} m: do its wheels get the commands?',
             )
 
-    def _wait_for_safety(self, now: float, error: NavigationError) -> Command:
+    def _wait_for_safety(self, now: float, error: NavigationError) -> WheelCommand:
         """Stand still where no velocity is safe. Raises NavigationError: for too long."""
         if self._unsafe_since is None:
             self._unsafe_since = now
         if now - self._unsafe_since >= self.settings.failure_tolerance:
             self._unsafe_since = None
             raise NavigationError(PATIENCE_EXCEEDED, str(error))
-        return Command()
+        return WheelCommand()
 
-    def _fail(self, error: NavigationError, now: float, pose: Pose, costmap: Costmap) -> Command:
+    def _fail(
+        self, error: NavigationError, now: float, pose: Pose, costmap: Costmap
+    ) -> WheelCommand:
         """Clear the costmap, then recover, then give up; stand still meanwhile."""
         if error.error_code not in _RECOVERABLE or (
             self._cleared and self.recoveries >= self.settings.number_of_retries
         ):
-            self.status, self.error = Status.FAILED, error
-            return Command()
+            self.status, self.error = DriveStatus.FAILED, error
+            return WheelCommand()
         self._begin_again()
         costmap.clear()
         if self._cleared:
@@ -393,4 +395,4 @@ class Drive:
             self._recovery = kind(self.settings.recoveries, self.outline, pose, now)
             self.recoveries += 1
         self._cleared = not self._cleared
-        return Command()
+        return WheelCommand()

@@ -4,8 +4,8 @@
 The extended Kalman filter of robot_localization: motion in space with 15 states.
 
 The state is the pose of the robot in a world-fixed frame, its velocity and its linear
-acceleration, both in the robot's own axes (:class:`Member`). Between measurements the acceleration
-and the turn rates are constant (or follow from a command, :class:`ControlLimits`)::
+acceleration, both in the robot's own axes (:class:`StateMember`). Between measurements the
+acceleration and the turn rates are constant (or follow from a command, :class:`ControlLimits`)::
 
     x' = f(x) = x + (R(r, p, y) (v dt + a dt² / 2),  E(r, p) ω dt,  a dt,  0,  0)
     P' = F P Fᵀ + Q dt,  F = ∂f/∂x
@@ -42,7 +42,7 @@ _LEAST_VARIANCE = 1e-9
 """Of a measurement: no sensor is without an error, and S must have an inverse."""
 
 
-class Member(enum.IntEnum):
+class StateMember(enum.IntEnum):
     """What the numbers of a state are, in the order of ``odom0_config``."""
 
     X = 0
@@ -69,7 +69,7 @@ TWIST = slice(6, 12)
 VELOCITY = slice(6, 9)
 TURN_RATE = slice(9, 12)
 ACCELERATION = slice(12, 15)
-_COMMANDED_ACCELERATION = (Member.AX, Member.AY, Member.AZ)
+_COMMANDED_ACCELERATION = (StateMember.AX, StateMember.AY, StateMember.AZ)
 
 PROCESS_NOISE = (
     0.05, 0.05, 0.06, 0.03, 0.03, 0.06,
@@ -96,12 +96,12 @@ class Measurement:
     """15"""
     threshold: float = NO_THRESHOLD
     """Mahalanobis distance from which on the measurement is rejected."""
-    control: 'Control | None' = None
+    control: 'ControlInput | None' = None
     """The latest command when it was received."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Control:
+class ControlInput:
     """A commanded velocity."""
 
     velocity: Array
@@ -112,7 +112,7 @@ class Control:
 
 @dataclass(frozen=True, slots=True)
 class ControlLimits:
-    """How commanded velocities are followed; six of each, as of :class:`Control`."""
+    """How commanded velocities are followed; six of each, as of :class:`ControlInput`."""
 
     used: tuple[bool, ...]
     timeout: int
@@ -170,7 +170,7 @@ class Ekf:
         """ns; of the state."""
         self.is_initialized = False
         """Whether there was a measurement."""
-        self.control: Control | None = None
+        self.control: ControlInput | None = None
         self.reset()
 
     def reset(self) -> None:
@@ -227,7 +227,7 @@ class Ekf:
         except np.linalg.LinAlgError:
             return Outcome.UNUSABLE
         innovation = measurement.values[used] - self.state[used]
-        is_angle = (used >= Member.ROLL) & (used <= Member.YAW)
+        is_angle = (used >= StateMember.ROLL) & (used <= StateMember.YAW)
         innovation[is_angle] = _wrapped(innovation[is_angle])
         squared_distance = float(innovation @ inverse @ innovation)
         # Not **, which raises an OverflowError where this is infinite.
@@ -262,7 +262,7 @@ class Ekf:
             if axis < 3:
                 self.state[_COMMANDED_ACCELERATION[axis]] = acceleration
             else:
-                self.state[Member.VX + axis] += acceleration * dt
+                self.state[StateMember.VX + axis] += acceleration * dt
 
     def _wrap(self) -> None:
         self.state[ANGLES] = _wrapped(self.state[ANGLES])
@@ -293,12 +293,12 @@ def transfer_jacobian(state: Array, dt: float, transfer: Array | None = None) ->
     jacobian = (transfer_matrix(state, dt) if transfer is None else transfer).copy()
     way = state[VELOCITY] * dt + state[ACCELERATION] * (0.5 * dt * dt)
     about_x, about_y, about_z = _axis_rotations(roll, pitch, yaw)
-    jacobian[POSITION, Member.ROLL] = about_z @ about_y @ _derivative(0, roll) @ way
-    jacobian[POSITION, Member.PITCH] = about_z @ _derivative(1, pitch) @ about_x @ way
-    jacobian[POSITION, Member.YAW] = _derivative(2, yaw) @ about_y @ about_x @ way
+    jacobian[POSITION, StateMember.ROLL] = about_z @ about_y @ _derivative(0, roll) @ way
+    jacobian[POSITION, StateMember.PITCH] = about_z @ _derivative(1, pitch) @ about_x @ way
+    jacobian[POSITION, StateMember.YAW] = _derivative(2, yaw) @ about_y @ about_x @ way
     by_roll, by_pitch = _euler_rate_derivatives(roll, pitch)
-    jacobian[ANGLES, Member.ROLL] += by_roll @ state[TURN_RATE] * dt
-    jacobian[ANGLES, Member.PITCH] += by_pitch @ state[TURN_RATE] * dt
+    jacobian[ANGLES, StateMember.ROLL] += by_roll @ state[TURN_RATE] * dt
+    jacobian[ANGLES, StateMember.PITCH] += by_pitch @ state[TURN_RATE] * dt
     return jacobian
 
 

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from amr_description.clock import NANOSECONDS
-from amr_description.navigation.ekf import Array, Member
+from amr_description.navigation.ekf import Array, StateMember
 from amr_description.navigation.ekf_measurement import Mask
-from amr_description.navigation.ekf_parameters import Parameters
+from amr_description.navigation.ekf_parameters import EkfParameters
 
 _LARGE_COVARIANCE = 1e3
 _WINDOW = 10
@@ -45,7 +45,7 @@ class Level(enum.IntEnum):
     ERROR = 2
 
 
-class Status(NamedTuple):
+class EkfStatus(NamedTuple):
     """One status of ``/diagnostics``."""
 
     name: str
@@ -57,7 +57,7 @@ class Status(NamedTuple):
 class FilterDiagnostics:
     """What was found wrong: with settings, for good, and with data, until it is reported."""
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: EkfParameters) -> None:
         self._static = {key: (level, text) for level, key, text in _on_settings(parameters)}
         self._dynamic: dict[str, tuple[Level, str]] = {}
 
@@ -65,13 +65,13 @@ class FilterDiagnostics:
         """Note something wrong with data."""
         self._dynamic[key] = (Level.WARN, text)
 
-    def take(self) -> Status:
+    def take(self) -> EkfStatus:
         """Return what is known, and forget what is wrong with data."""
         found = {**self._static, **self._dynamic}
         self._dynamic.clear()
         level = max((level for level, _ in found.values()), default=Level.OK)
         values = [(key, text) for key, (_, text) in found.items()]
-        return Status('Filter diagnostic updater', level, _SUMMARIES[level], values)
+        return EkfStatus('Filter diagnostic updater', level, _SUMMARIES[level], values)
 
 
 class RateDiagnostics:
@@ -90,7 +90,7 @@ class RateDiagnostics:
         """Count a message."""
         self._count += 1
 
-    def take(self, now: int) -> Status:
+    def take(self, now: int) -> EkfStatus:
         """Return the rate since the tenth call before this one; ``now``: ns."""
         self._windows = self._windows or deque([(now, 0)], _WINDOW)
         since, before = self._windows[0]
@@ -113,7 +113,7 @@ class RateDiagnostics:
             ('Minimum acceptable frequency (Hz)', f'{lowest:f}'),
             ('Maximum acceptable frequency (Hz)', f'{highest:f}'),
         ]
-        return Status('odometry/filtered topic status', level, message, values)
+        return EkfStatus('odometry/filtered topic status', level, message, values)
 
 
 def complaint_on(covariance: Array, used: Mask, offset: int) -> str:
@@ -148,7 +148,7 @@ def complaint_on(covariance: Array, used: Mask, offset: int) -> str:
     return ''
 
 
-def _on_settings(parameters: Parameters) -> Iterator[tuple[Level, str, str]]:
+def _on_settings(parameters: EkfParameters) -> Iterator[tuple[Level, str, str]]:
     """Yield (level, key, text) of what the inputs measure several times, or not at all."""
     poses, twists = np.zeros(6, dtype=int), np.zeros(6, dtype=int)
     for each in parameters.inputs:
@@ -161,7 +161,7 @@ def _on_settings(parameters: Parameters) -> Iterator[tuple[Level, str, str]]:
         (twists if each.pose.differential else poses)[:] += each.pose.used[:6]
         twists += each.twist.used[6:12]
     is_flat = parameters.is_on('two_d_mode')
-    for member in range(Member.X, Member.YAW + 1):
+    for member in range(StateMember.X, StateMember.YAW + 1):
         key = f'{NAMES[member]}_configuration'
         if poses[member] > 1:
             yield (
@@ -171,7 +171,7 @@ def _on_settings(parameters: Parameters) -> Iterator[tuple[Level, str, str]]:
                 'result in oscillations. Please ensure that your variances for each measured '
                 'variable are set appropriately.',
             )
-        in_plane = member in (Member.X, Member.Y, Member.YAW)
+        in_plane = member in (StateMember.X, StateMember.Y, StateMember.YAW)
         if not poses[member] and not twists[member] and (in_plane or not is_flat):
             yield (
                 Level.ERROR,

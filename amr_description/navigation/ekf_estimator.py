@@ -21,7 +21,7 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.ekf import (
     Array,
-    Control,
+    ControlInput,
     Ekf,
     Measurement,
     Outcome,
@@ -52,7 +52,7 @@ class _Saved:
     state: Array
     covariance: Array
     time: int
-    control: Control | None
+    control: ControlInput | None
 
 
 class Estimator:
@@ -97,7 +97,7 @@ class Estimator:
         self.filter.covariance = covariance.copy()
         self.filter.time = time
 
-    def set_control(self, control: Control) -> None:
+    def set_control(self, control: ControlInput) -> None:
         """Follow a command from the next prediction on."""
         self.filter.control = control
 

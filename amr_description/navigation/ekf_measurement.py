@@ -31,11 +31,11 @@ from amr_description.navigation.ekf import (
     ACCELERATION,
     ANGLES,
     Array,
-    Member,
     NO_THRESHOLD,
     POSE,
     POSITION,
     STATE_SIZE,
+    StateMember,
     TURN_RATE,
     TWIST,
     VELOCITY,
@@ -44,13 +44,13 @@ from amr_description.navigation.ekf import (
 Mask: TypeAlias = NDArray[np.bool_]
 
 OUT_OF_PLANE = (
-    Member.Z,
-    Member.ROLL,
-    Member.PITCH,
-    Member.VZ,
-    Member.VROLL,
-    Member.VPITCH,
-    Member.AZ,
+    StateMember.Z,
+    StateMember.ROLL,
+    StateMember.PITCH,
+    StateMember.VZ,
+    StateMember.VROLL,
+    StateMember.VPITCH,
+    StateMember.AZ,
 )
 """What is zero of a robot that drives in the plane."""
 
@@ -60,7 +60,7 @@ _LEAST_SHARE = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Values:
+class MeasuredValues:
     """Measured states: 15 values, their covariance (15 × 15), and which of them count."""
 
     values: Array
@@ -69,7 +69,7 @@ class Values:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Channel:
+class MeasurementChannel:
     """One part of a sensor: its pose, its velocities, or its accelerations."""
 
     name: str
@@ -116,7 +116,7 @@ def twist_values(
     used: Mask,
     transform: Transform,
     turn_rate: Array,
-) -> Values:
+) -> MeasuredValues:
     """
     Return a velocity in the robot's axes.
 
@@ -136,12 +136,16 @@ def twist_values(
     mask = used.copy()
     mask[VELOCITY] = _turned(used[VELOCITY], rotation)
     mask[TURN_RATE] = _turned(used[TURN_RATE], rotation)
-    return Values(values, full, mask)
+    return MeasuredValues(values, full, mask)
 
 
 def acceleration_values(
-    acceleration: Vector, covariance: Array, used: Mask, transform: Transform, motion: 'Motion'
-) -> Values:
+    acceleration: Vector,
+    covariance: Array,
+    used: Mask,
+    transform: Transform,
+    motion: 'RotationalMotion',
+) -> MeasuredValues:
     """
     Return a linear acceleration of the robot's origin, in its axes.
 
@@ -164,11 +168,11 @@ def acceleration_values(
     full[ACCELERATION, ACCELERATION] = rotation @ covariance @ rotation.T
     mask = used.copy()
     mask[ACCELERATION] = _turned(used[ACCELERATION], rotation)
-    return Values(values, full, mask)
+    return MeasuredValues(values, full, mask)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Motion:
+class RotationalMotion:
     """How the robot turns: rad/s and rad/s², three of each, in its axes."""
 
     turn_rate: Array
@@ -191,11 +195,11 @@ def without_gravity(acceleration: Vector, attitude: Quaternion, gravity: float) 
 
 def pose_values(
     stamped: StampedPose,
-    channel: Channel,
+    channel: MeasurementChannel,
     memory: PoseMemory,
     transform: Transform,
     base: Transform | None = None,
-) -> Values | None:
+) -> MeasuredValues | None:
     """
     Return a pose in the world-fixed frame, or the velocity since the last one.
 
@@ -227,8 +231,8 @@ def pose_values(
 
 
 def orientation_values(
-    stamped: StampedPose, channel: Channel, memory: PoseMemory, transform: Transform
-) -> Values | None:
+    stamped: StampedPose, channel: MeasurementChannel, memory: PoseMemory, transform: Transform
+) -> MeasuredValues | None:
     """
     Return the orientation of the robot by that of its IMU, or the turn rates since the last one.
 
@@ -252,7 +256,7 @@ def orientation_values(
     pose = Transform(stamped.pose.translation, quaternion_from_rpy(roll, pitch, yaw))
     covariance = _rotated(stamped.covariance, rotation)
     if channel.differential:
-        turned = Channel(channel.name, mask, differential=True)
+        turned = MeasurementChannel(channel.name, mask, differential=True)
         return _velocity(StampedPose(pose, covariance, stamped.time), turned, memory, None)
     if channel.relative:
         memory.first = memory.first or pose
@@ -260,7 +264,7 @@ def orientation_values(
     return _pose(pose, covariance, mask)
 
 
-def in_the_plane(measured: Values) -> Values:
+def in_the_plane(measured: MeasuredValues) -> MeasuredValues:
     """Return a measurement that also says that the robot is in the plane z = 0, level."""
     values, covariance, used = (
         measured.values.copy(),
@@ -272,12 +276,12 @@ def in_the_plane(measured: Values) -> Values:
         covariance[index, :] = covariance[:, index] = 0.0
         covariance[index, index] = _VARIANCE_OUT_OF_PLANE
         used[index] = True
-    return Values(values, covariance, used)
+    return MeasuredValues(values, covariance, used)
 
 
 def _velocity(
-    stamped: StampedPose, channel: Channel, memory: PoseMemory, base: Transform | None
-) -> Values | None:
+    stamped: StampedPose, channel: MeasurementChannel, memory: PoseMemory, base: Transform | None
+) -> MeasuredValues | None:
     """Return the velocity between the last pose of a sensor and this one; remember this one."""
     last, last_covariance, last_time = memory.last, memory.last_covariance, memory.last_time
     memory.last, memory.last_covariance = stamped.pose, stamped.covariance
@@ -295,16 +299,16 @@ def _velocity(
     full[TWIST, TWIST] = (stamped.covariance + last_covariance) * dt
     used = np.zeros(STATE_SIZE, dtype=bool)
     used[TWIST] = channel.used[POSE]
-    return Values(values, full, used)
+    return MeasuredValues(values, full, used)
 
 
-def _pose(pose: Transform, covariance: Array, used: Mask) -> Values:
+def _pose(pose: Transform, covariance: Array, used: Mask) -> MeasuredValues:
     """Return a pose as states."""
     values, full = np.zeros(STATE_SIZE), np.zeros((STATE_SIZE, STATE_SIZE))
     values[POSITION] = pose.translation
     values[ANGLES] = rpy_from_quaternion(pose.rotation)
     full[POSE, POSE] = covariance
-    return Values(values, full, used)
+    return MeasuredValues(values, full, used)
 
 
 def _matrix(rotation: Quaternion) -> Array:

@@ -6,7 +6,7 @@ The parameters of ``ekf_node``, by the names, types and defaults of robot_locali
 Inputs are numbered from 0 on, without gaps: ``odom0``, ``odom1``, ``pose0``, ``twist0``, ``imu0``.
 The first of each four is a topic; ``odom0_config`` says which of the 15 states it measures.
 
-What is set and is of no use gets one line: :attr:`Parameters.notes`.
+What is set and is of no use gets one line: :attr:`EkfParameters.notes`.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -24,77 +24,77 @@ from amr_description.navigation.ekf import (
     Array,
     ControlLimits,
     INITIAL_VARIANCE,
-    Member,
     NO_THRESHOLD,
     POSE,
     PROCESS_NOISE,
     STATE_SIZE,
+    StateMember,
     Tuning,
     TURN_RATE,
     TWIST,
 )
 from amr_description.navigation.ekf_estimator import Timing
-from amr_description.navigation.ekf_measurement import Channel, Mask
+from amr_description.navigation.ekf_measurement import Mask, MeasurementChannel
 from amr_description.text import closest_match
 
 Value: TypeAlias = bool | int | float | str | list[bool] | list[float]
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class ParameterKind:
     """The type of a parameter, and its value if it is not given; None: it has none."""
 
     type: str
     default: Value | None
 
 
-_CONFIG = Kind('bool_array', [False] * STATE_SIZE)
-_NO = Kind('bool', False)
-_YES = Kind('bool', True)
-_THRESHOLD = Kind('double', NO_THRESHOLD)
-_QUEUE = Kind('integer', 10)
-_SIX = Kind('double_array', None)
+_CONFIG = ParameterKind('bool_array', [False] * STATE_SIZE)
+_NO = ParameterKind('bool', False)
+_YES = ParameterKind('bool', True)
+_THRESHOLD = ParameterKind('double', NO_THRESHOLD)
+_QUEUE = ParameterKind('integer', 10)
+_SIX = ParameterKind('double_array', None)
 
-NODE: Mapping[str, Kind] = {
-    'frequency': Kind('double', 30.0),
-    'sensor_timeout': Kind('double', None),  # 1 / frequency
+NODE: Mapping[str, ParameterKind] = {
+    'frequency': ParameterKind('double', 30.0),
+    'sensor_timeout': ParameterKind('double', None),  # 1 / frequency
     'two_d_mode': _NO,
-    'transform_time_offset': Kind('double', 0.0),
-    'transform_timeout': Kind('double', 0.0),
+    'transform_time_offset': ParameterKind('double', 0.0),
+    'transform_timeout': ParameterKind('double', 0.0),
     'print_diagnostics': _NO,
     'debug': _NO,
-    'debug_out_file': Kind('string', 'robot_localization_debug.txt'),
+    'debug_out_file': ParameterKind('string', 'robot_localization_debug.txt'),
     'publish_tf': _YES,
     'publish_acceleration': _NO,
     'permit_corrected_publication': _NO,
-    'map_frame': Kind('string', 'map'),
-    'odom_frame': Kind('string', 'odom'),
-    'base_link_frame': Kind('string', 'base_link'),
-    'base_link_frame_output': Kind('string', None),  # base_link_frame
-    'world_frame': Kind('string', None),  # odom_frame
-    'tf_prefix': Kind('string', None),
-    'gravitational_acceleration': Kind('double', 9.80665),
+    'map_frame': ParameterKind('string', 'map'),
+    'odom_frame': ParameterKind('string', 'odom'),
+    'base_link_frame': ParameterKind('string', 'base_link'),
+    'base_link_frame_output': ParameterKind('string', None),  # base_link_frame
+    'world_frame': ParameterKind('string', None),  # odom_frame
+    'tf_prefix': ParameterKind('string', None),
+    'gravitational_acceleration': ParameterKind('double', 9.80665),
     'predict_to_current_time': _NO,
     'smooth_lagged_data': _NO,
-    'history_length': Kind('double', 0.0),
+    'history_length': ParameterKind('double', 0.0),
     'reset_on_time_jump': _NO,
     'disabled_at_startup': _NO,
     'use_control': _NO,
     'stamped_control': _NO,
-    'control_timeout': Kind('double', 0.0),
-    'control_config': Kind('bool_array', None),
+    'control_timeout': ParameterKind('double', 0.0),
+    'control_config': ParameterKind('bool_array', None),
     'acceleration_limits': _SIX,
     'deceleration_limits': _SIX,
     'acceleration_gains': _SIX,
     'deceleration_gains': _SIX,
     'dynamic_process_noise_covariance': _NO,
-    'process_noise_covariance': Kind('double_array', None),
-    'initial_estimate_covariance': Kind('double_array', None),
-    'initial_state': Kind('double_array', None),
-    'diagnostic_updater.period': Kind('double', 1.0),
+    'process_noise_covariance': ParameterKind('double_array', None),
+    'initial_estimate_covariance': ParameterKind('double_array', None),
+    'initial_state': ParameterKind('double_array', None),
+    'diagnostic_updater.period': ParameterKind('double', 1.0),
     'diagnostic_updater.use_fqn': _NO,
 }
-INPUTS: Mapping[str, Mapping[str, Kind]] = {
+INPUTS: Mapping[str, Mapping[str, ParameterKind]] = {
     'odom': {
         '_config': _CONFIG,
         '_differential': _NO,
@@ -142,7 +142,7 @@ _TYPES = {'bool': (bool,), 'integer': (int,), 'double': (float, int), 'string': 
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Input:
+class EkfInput:
     """One sensor: its topic, and what its messages measure."""
 
     kind: str
@@ -151,15 +151,15 @@ class Input:
     """``odom0``"""
     topic: str
     queue_size: int
-    pose: Channel
-    twist: Channel
-    acceleration: Channel
+    pose: MeasurementChannel
+    twist: MeasurementChannel
+    acceleration: MeasurementChannel
     uses_child_frame: bool
     """Whether its pose is that of its child frame, else of the robot."""
     removes_gravity: bool
 
     @property
-    def channels(self) -> tuple[Channel, Channel, Channel]:
+    def channels(self) -> tuple[MeasurementChannel, MeasurementChannel, MeasurementChannel]:
         """Its three parts."""
         return (self.pose, self.twist, self.acceleration)
 
@@ -170,12 +170,12 @@ class Input:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Parameters:
+class EkfParameters:
     """The parameters of a node, understood."""
 
     values: Mapping[str, Value]
     """Of all that are known, given or not, by name."""
-    inputs: Sequence[Input]
+    inputs: Sequence[EkfInput]
     tuning: Tuning
     timing: Timing
     map_frame: str
@@ -201,7 +201,7 @@ class Parameters:
         return _nanoseconds(self.number(name))
 
 
-def read_parameters(given: Mapping[str, object]) -> Parameters:
+def read_parameters(given: Mapping[str, object]) -> EkfParameters:
     """
     Understand the parameters of a node.
 
@@ -237,14 +237,14 @@ def read_parameters(given: Mapping[str, object]) -> Parameters:
     )
     notes += _notes_on_values(values, given)
     notes += _notes_on_names(given)
-    return Parameters(values, inputs, tuning, timing, *frames, notes=notes)
+    return EkfParameters(values, inputs, tuning, timing, *frames, notes=notes)
 
 
-def kinds_of(given: Mapping[str, object]) -> dict[str, Kind]:
+def kinds_of(given: Mapping[str, object]) -> dict[str, ParameterKind]:
     """Return the parameters that a node has that is given some, by name."""
     kinds = dict(NODE)
     for kind, name in _inputs(given):
-        kinds[name] = Kind('string', '')
+        kinds[name] = ParameterKind('string', '')
         kinds |= {name + suffix: each for suffix, each in INPUTS[kind].items()}
     return kinds
 
@@ -336,7 +336,7 @@ def _check_length(name: str, value: Value, length: int) -> None:
     if len(value) != length:
         raise ParameterError(
             f"parameter '{name}' has {len(value)} elements; {length} are expected: "
-            f'{", ".join(member.name.lower() for member in Member)}'
+            f'{", ".join(member.name.lower() for member in StateMember)}'
         )
 
 
@@ -363,7 +363,7 @@ def _frames(values: Mapping[str, Value], notes: list[str]) -> tuple[str, str, st
     return map_frame, odom, base, output, world
 
 
-def _input(kind: str, name: str, values: Mapping[str, Value], notes: list[str]) -> Input:
+def _input(kind: str, name: str, values: Mapping[str, Value], notes: list[str]) -> EkfInput:
     """Return an input, and note what it cannot measure."""
     config = values[f'{name}_config']
     assert isinstance(config, list)
@@ -371,7 +371,9 @@ def _input(kind: str, name: str, values: Mapping[str, Value], notes: list[str]) 
     measured = np.zeros(STATE_SIZE, dtype=bool)
     for part in _MEASURES[kind]:
         measured[part] = True
-    names = [member.name.lower() for member in Member if used[member] and not measured[member]]
+    names = [
+        member.name.lower() for member in StateMember if used[member] and not measured[member]
+    ]
     if names:
         notes.append(f'{name}_config: its messages do not hold {", ".join(names)}: not used')
     used &= measured
@@ -386,24 +388,24 @@ def _input(kind: str, name: str, values: Mapping[str, Value], notes: list[str]) 
         part: _number(values, f'{name}{suffix}', NO_THRESHOLD)
         for part, suffix in _thresholds_of(kind).items()
     }
-    entry = Input(
+    entry = EkfInput(
         kind,
         name,
         str(values[name]),
         int(values[f'{name}_queue_size']),  # type: ignore[arg-type]
-        Channel(
+        MeasurementChannel(
             f'{name}_pose' if kind != 'pose' else name,
             _part(used, POSE),
             differential,
             relative and not differential,
             thresholds.get('pose', NO_THRESHOLD),
         ),
-        Channel(
+        MeasurementChannel(
             f'{name}_twist' if kind != 'twist' else name,
             _part(used, TWIST),
             threshold=thresholds.get('twist', NO_THRESHOLD),
         ),
-        Channel(
+        MeasurementChannel(
             f'{name}_acceleration',
             _part(used, ACCELERATION),
             threshold=thresholds.get('acceleration', NO_THRESHOLD),
@@ -470,7 +472,7 @@ def _initial_state(values: Mapping[str, Value]) -> Array:
 
 
 def _control(
-    values: Mapping[str, Value], inputs: Sequence[Input], notes: list[str]
+    values: Mapping[str, Value], inputs: Sequence[EkfInput], notes: list[str]
 ) -> ControlLimits | None:
     """Return how commands are followed; None: they are not."""
     if not values['use_control']:
@@ -482,7 +484,7 @@ def _control(
         )
         return None
     used = list(_six(values, 'control_config'))
-    for axis, member in enumerate((Member.AX, Member.AY, Member.AZ)):
+    for axis, member in enumerate((StateMember.AX, StateMember.AY, StateMember.AZ)):
         if used[axis] and any(each.acceleration.used[member] for each in inputs):
             notes.append(
                 f'{"XYZ"[axis]} acceleration is being measured from IMU; {"XYZ"[axis]} velocity '

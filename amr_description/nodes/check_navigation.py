@@ -22,12 +22,12 @@ import threading
 
 from amr_description import streams
 from amr_description.argument_types import positive
-from amr_description.navigation.contract.findings import Verdict
-from amr_description.navigation.contract.observations import Frames, Observations
+from amr_description.navigation.contract.findings import CheckVerdict
+from amr_description.navigation.contract.observations import ContractFrames, ContractObservations
 from amr_description.navigation.contract.report import as_json, as_text
 from amr_description.navigation.contract.rules import examine
 from amr_description.navigation.ros.contract.collector import Collector
-from amr_description.navigation.ros.contract.driving import Drive, RivalWatch
+from amr_description.navigation.ros.contract.driving import ContractDrive, RivalWatch
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node, wait_until
 from amr_description.ros.signals import StopRequested, StopRequests
@@ -66,7 +66,7 @@ def parser() -> argparse.ArgumentParser:
         action='store_true',
         help='Nav2 is configured with enable_stamped_cmd_vel: true',
     )
-    names = Frames()
+    names = ContractFrames()
     for option, default, what in (
         ('map', names.map, 'of the map'),
         ('odom', names.odom, 'of odometry'),
@@ -86,7 +86,7 @@ def check_navigation(args: list[str] | None) -> int:
     """Listen, drive if that is asked for, and print; return the exit code."""
     words = sys.argv[1:] if args is None else args
     options = parser().parse_args(other_arguments(words))
-    frames = Frames(
+    frames = ContractFrames(
         options.map_frame, options.odom_frame, options.base_frame, options.footprint_frame
     )
     with ros(words) as stop:
@@ -136,21 +136,21 @@ def _drive(collector: Collector, stop: StopRequests) -> None:
             raise StopRequested(stop.signum)
 
     with stop.on_stop(is_stopping.set):
-        drive = Drive(collector, raise_if_stopped)
+        drive = ContractDrive(collector, raise_if_stopped)
         try:
             collector.drive = drive.run()
         finally:
             drive.stop()
 
 
-def _report(seen: Observations, *, is_json: bool) -> int:
+def _report(seen: ContractObservations, *, is_json: bool) -> int:
     """Print all findings; return the exit code."""
     findings = examine(seen)
     try:
         print((as_json if is_json else as_text)(findings, seen), flush=True)
     except BrokenPipeError:  # as of `| head`
         streams.abandon_stdout()
-    return int(any(finding.verdict is Verdict.FAILED for finding in findings))
+    return int(any(finding.verdict is CheckVerdict.FAILED for finding in findings))
 
 
 def main(args: list[str] | None = None) -> int:

@@ -60,7 +60,7 @@ NOTE: --ros-args should be passed at the end of command line"""
 _FLAGS = ('-t', '-f', '--occ', '--free', '--fmt', '--mode')
 
 
-class ArgumentsError(UsageError):
+class MapArgumentsError(UsageError):
     """The command line is wrong; the exit code is that of the original."""
 
     exit_code = 255
@@ -87,7 +87,7 @@ class MapSaverParameters:
 
 
 @dataclass(frozen=True)
-class Request:
+class SaveRequest:
     """What the command line asks for."""
 
     topic: str = 'map'
@@ -99,26 +99,26 @@ class Request:
     )
 
 
-def parse(words: Sequence[str]) -> Request | None:
+def parse(words: Sequence[str]) -> SaveRequest | None:
     """
     Read a command line without its ROS arguments; None: help is asked for.
 
     Raises ArgumentsError.
     """
-    request, rest = Request(), iter(words)
+    request, rest = SaveRequest(), iter(words)
     for flag in rest:
         if flag in ('-h', '--help'):
             return None
         if flag not in _FLAGS:
-            raise ArgumentsError(f'Wrong argument: {flag}; there are {", ".join(_FLAGS)}')
+            raise MapArgumentsError(f'Wrong argument: {flag}; there are {", ".join(_FLAGS)}')
         value = next(rest, None)
         if value is None:
-            raise ArgumentsError(f'Wrong argument: {flag} should be followed by a value.')
+            raise MapArgumentsError(f'Wrong argument: {flag} should be followed by a value.')
         request = _with_flag(request, flag, value)
     return request
 
 
-def _with_flag(request: Request, flag: str, value: str) -> Request:
+def _with_flag(request: SaveRequest, flag: str, value: str) -> SaveRequest:
     chosen = request.parameters
     match flag:
         case '-t':
@@ -133,7 +133,7 @@ def _with_flag(request: Request, flag: str, value: str) -> Request:
             chosen = replace(chosen, image_format=value.lower())
         case '--mode':
             if value not in set(MapMode):
-                raise ArgumentsError(f"--mode is '{value}'; it must be {', '.join(MapMode)}")
+                raise MapArgumentsError(f"--mode is '{value}'; it must be {', '.join(MapMode)}")
             chosen = replace(chosen, mode=MapMode(value))
     return replace(request, parameters=chosen)
 
@@ -144,12 +144,12 @@ def _threshold(flag: str, word: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ArgumentsError(f"{flag} is '{word}'; it must be a number from 0 to 1")
+        raise MapArgumentsError(f"{flag} is '{word}'; it must be a number from 0 to 1")
     return value
 
 
 def completed(
-    request: Request, defaults: MapSaverParameters, now: float
+    request: SaveRequest, defaults: MapSaverParameters, now: float
 ) -> tuple[Path, SaveParameters, list[str]]:
     """
     Return name and parameters with their defaults, and what to warn of.
@@ -181,7 +181,7 @@ def completed(
     return Path(name), chosen, lines
 
 
-def save(node: Node, request: Request) -> None:
+def save(node: Node, request: SaveRequest) -> None:
     """Wait for a map and write it. Raises MapError."""
     parameters = declare(node, MapSaverParameters)
     logger = node.get_logger()
@@ -226,7 +226,7 @@ def run_saver(args: list[str] | None) -> int:
     given = sys.argv[1:] if args is None else args
     try:
         request = parse(other_arguments(given))
-    except ArgumentsError as error:
+    except MapArgumentsError as error:
         get_logger('map_saver_cli').error(str(error))
         return error.exit_code
     if request is None:

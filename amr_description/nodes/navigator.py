@@ -73,7 +73,12 @@ from amr_description.maps.grid import OccupancyGrid, UNKNOWN
 from amr_description.maps.pose import Pose
 from amr_description.navigation import planner
 from amr_description.navigation.costmap import Costmap, INSCRIBED, LETHAL, NO_INFORMATION
-from amr_description.navigation.drive import Command, Drive, DriveSettings, Status
+from amr_description.navigation.drive import (
+    DriveStatus,
+    NavigationDrive,
+    NavigationDriveSettings,
+    WheelCommand,
+)
 from amr_description.navigation.footprint import (
     inscribed_radius,
     outline,
@@ -81,7 +86,11 @@ from amr_description.navigation.footprint import (
     Points,
     read_footprint,
 )
-from amr_description.navigation.ros.goals import Goal, GoalServer, UNKNOWN_ERROR
+from amr_description.navigation.ros.goals import (
+    NavigationGoal,
+    NavigationGoalServer,
+    UNKNOWN_ERROR,
+)
 from amr_description.navigation.ros.messages import grid_message, pose_message
 from amr_description.navigation.ros.surroundings import (
     Surroundings,
@@ -109,7 +118,7 @@ _INVALID_PATH = 103
 
 
 @dataclass(frozen=True)
-class NavigatorParameters(SurroundingsSettings, DriveSettings):
+class NavigatorParameters(SurroundingsSettings, NavigationDriveSettings):
     """All parameters."""
 
     enable_stamped_cmd_vel: bool = parameter(
@@ -131,16 +140,20 @@ class Navigator(Node):
         self._outline = outline(self._corners, _OUTLINE_SPACING)
         self._surroundings = Surroundings(self, self._settings, inscribed_radius(self._corners))
         self._publish_to()
-        self._goal: Goal | None = None
-        self._drive: Drive | None = None
+        self._goal: NavigationGoal | None = None
+        self._drive: NavigationDrive | None = None
         self._stopped_since: float | None = None
         self._said = self._last = -math.inf
         self._plans = 0
         self._servers = [
-            GoalServer(self, NavigateToPose, 'navigate_to_pose', self._begin_to_pose),
-            GoalServer(self, NavigateThroughPoses, 'navigate_through_poses', self._begin_through),
-            GoalServer(self, ComputePathToPose, 'compute_path_to_pose', self._compute_path),
-            GoalServer(self, FollowPath, 'follow_path', self._begin_follow),
+            NavigationGoalServer(self, NavigateToPose, 'navigate_to_pose', self._begin_to_pose),
+            NavigationGoalServer(
+                self, NavigateThroughPoses, 'navigate_through_poses', self._begin_through
+            ),
+            NavigationGoalServer(
+                self, ComputePathToPose, 'compute_path_to_pose', self._compute_path
+            ),
+            NavigationGoalServer(self, FollowPath, 'follow_path', self._begin_follow),
         ]
         self.create_subscription(PoseStamped, 'goal_pose', self._hear_goal, 10)
         self.create_timer(1.0 / self._settings.controller_frequency, self._step)
@@ -189,15 +202,15 @@ class Navigator(Node):
     # --- goals --------------------------------------------------------------------------------
 
     def _hear_goal(self, message: PoseStamped) -> None:
-        self._begin(Goal(None, None, message), [message])
+        self._begin(NavigationGoal(None, None, message), [message])
 
-    def _begin_to_pose(self, goal: Goal) -> None:
+    def _begin_to_pose(self, goal: NavigationGoal) -> None:
         self._begin(goal, [goal.request.pose])
 
-    def _begin_through(self, goal: Goal) -> None:
+    def _begin_through(self, goal: NavigationGoal) -> None:
         self._begin(goal, goal.request.poses)
 
-    def _begin(self, goal: Goal, messages: list[PoseStamped]) -> None:
+    def _begin(self, goal: NavigationGoal, messages: list[PoseStamped]) -> None:
         """Drive to these, and no longer to those before."""
         try:
             if not messages:
@@ -206,9 +219,9 @@ class Navigator(Node):
         except NavigationError as error:
             self._refuse(goal, error)
             return
-        self._start(goal, Drive(self._settings, self._outline, goals))
+        self._start(goal, NavigationDrive(self._settings, self._outline, goals))
 
-    def _begin_follow(self, goal: Goal) -> None:
+    def _begin_follow(self, goal: NavigationGoal) -> None:
         try:
             path = goal.request.path
             poses = []
@@ -220,9 +233,11 @@ class Navigator(Node):
         except NavigationError as error:
             self._refuse(goal, error)
             return
-        self._start(goal, Drive(self._settings, self._outline, [poses[-1]], given_path=poses))
+        self._start(
+            goal, NavigationDrive(self._settings, self._outline, [poses[-1]], given_path=poses)
+        )
 
-    def _start(self, goal: Goal, drive: Drive) -> None:
+    def _start(self, goal: NavigationGoal, drive: NavigationDrive) -> None:
         if self._drive is not None:
             self._end_drive(None)
         self._goal, self._drive = goal, drive
@@ -234,11 +249,11 @@ class Navigator(Node):
             f'Begin navigating to ({target.x:.2f}, {target.y:.2f}), yaw {target.yaw:.2f}'
         )
 
-    def _refuse(self, goal: Goal, error: NavigationError) -> None:
+    def _refuse(self, goal: NavigationGoal, error: NavigationError) -> None:
         self.get_logger().error(f'{error} (error code {error.error_code})')
         goal.abort(error)
 
-    def _compute_path(self, goal: Goal) -> None:
+    def _compute_path(self, goal: NavigationGoal) -> None:
         """Plan and answer; the robot does not move."""
         request = goal.request
         began = self.get_clock().now()
@@ -281,7 +296,7 @@ class Navigator(Node):
             return
         now = self._surroundings.now
         if goal.is_cancel_requested:
-            self._command(Command())
+            self._command(WheelCommand())
             self._drive = None
             goal.cancel()
             self.get_logger().info('Goal canceled')
@@ -299,12 +314,12 @@ class Navigator(Node):
         command = drive.step(now, pose, self._surroundings.speed, self._costmap())
         self._command(command)
         self._report(drive, goal, now, pose)
-        if drive.status is not Status.RUNNING:
+        if drive.status is not DriveStatus.RUNNING:
             self._end_drive(drive.error)
 
     def _stand_still(self, now: float, fault: str) -> None:
         """Stop while something is missing; give the goal up if that lasts."""
-        self._command(Command())
+        self._command(WheelCommand())
         if self._stopped_since is None:
             self._stopped_since = now
             self.get_logger().warning(f'the robot stands still: {fault}')
@@ -314,11 +329,11 @@ class Navigator(Node):
     def _end_drive(self, error: NavigationError | None) -> None:
         """Stop, and end the goal; ``error`` None: it was reached, or another one has come."""
         drive, goal = self._drive, self._goal
-        self._command(Command())
+        self._command(WheelCommand())
         self._drive = self._goal = None
         if drive is None or goal is None:
             return
-        if drive.status is Status.SUCCEEDED:
+        if drive.status is DriveStatus.SUCCEEDED:
             self.get_logger().info('Goal succeeded')
             goal.succeed()
         else:
@@ -326,7 +341,9 @@ class Navigator(Node):
                 self.get_logger().error(f'Goal failed: {error} (error code {error.error_code})')
             goal.abort(error)
 
-    def _report(self, drive: Drive, goal: Goal, now: float, pose: Pose) -> None:
+    def _report(
+        self, drive: NavigationDrive, goal: NavigationGoal, now: float, pose: Pose
+    ) -> None:
         """Publish the path if it is new, and feedback ten times a second."""
         if drive.plans != self._plans:
             self._plans = drive.plans
@@ -336,7 +353,9 @@ class Navigator(Node):
         self._said = now
         goal.feed(**self._feedback(drive, goal.server.type, now, pose))
 
-    def _feedback(self, drive: Drive, kind: Any, now: float, pose: Pose) -> dict[str, Any]:
+    def _feedback(
+        self, drive: NavigationDrive, kind: Any, now: float, pose: Pose
+    ) -> dict[str, Any]:
         left = drive.remaining(pose)
         if kind is FollowPath:
             return {'distance_to_goal': left, 'speed': self._surroundings.speed[0]}
@@ -361,7 +380,7 @@ class Navigator(Node):
         stamp = self.get_clock().now().to_msg()
         return Header(stamp=stamp, frame_id=self._settings.global_frame)
 
-    def _command(self, command: Command) -> None:
+    def _command(self, command: WheelCommand) -> None:
         twist = Twist()
         twist.linear.x, twist.angular.z = command.linear, command.angular
         if not self._settings.enable_stamped_cmd_vel:

@@ -35,7 +35,7 @@ from amr_description.control.manager_parameters import ManagerTable
 from amr_description.control.ros.controller_manager_node import (
     ControllerManagerNode,
     NODE_NAME,
-    PreparedManager,
+    PreparedManagerNode,
     RunningManager,
 )
 from amr_description.control.ros.loop_publisher import LoopPublisher
@@ -85,7 +85,7 @@ class StandAloneManager:
         except Exception:
             self._context.logs.stop()
             raise
-        self._latest: ControllerManagerNode | PreparedManager | RunningManager
+        self._latest: ControllerManagerNode | PreparedManagerNode | RunningManager
         """Has all nodes that were made so far."""
         self._latest = self._manager_node
         self.node, self._log = self._manager_node.node, self._manager_node.log
@@ -179,7 +179,7 @@ class StandAloneManager:
             raise
         self._latest = prepared.serve(manager)
 
-    def _add_manager(self, prepared: PreparedManager) -> ControllerManager:
+    def _add_manager(self, prepared: PreparedManagerNode) -> ControllerManager:
         """On the control thread; how long it takes is no overrun, as nothing ran before it."""
         try:
             manager = prepared.bring_up(None, self._period)

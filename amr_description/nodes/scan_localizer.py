@@ -80,7 +80,7 @@ class InitialPose:
 
 
 @dataclass(frozen=True)
-class Parameters:
+class ScanLocalizerParameters:
     """Names are those of amcl."""
 
     base_frame_id: str = parameter('base_footprint', 'The frame of the robot', read_only=True)
@@ -142,7 +142,7 @@ class ScanLocalizer(Node):
 
     def __init__(self) -> None:
         super().__init__('scan_localizer')
-        self._settings = given = declare(self, Parameters)
+        self._settings = given = declare(self, ScanLocalizerParameters)
         self._noise = MotionNoise(given.alpha1, given.alpha2, given.alpha3, given.alpha4)
         self._tracker: ScanTracker | None = None
         self._initial = _initial_pose(given)
@@ -344,7 +344,7 @@ class _Initial(NamedTuple):
     """Where odometry said that it was then; None: not known, as at the next scan."""
 
 
-def _initial_pose(given: Parameters) -> _Initial | None:
+def _initial_pose(given: ScanLocalizerParameters) -> _Initial | None:
     if not given.set_initial_pose:
         return None
     begin = given.initial_pose
@@ -353,7 +353,7 @@ def _initial_pose(given: Parameters) -> _Initial | None:
 
 def main(args: list[str] | None = None) -> int:
     """Localize until Ctrl-C."""
-    if print_help(args, 'scan_localizer', PURPOSE, Parameters):
+    if print_help(args, 'scan_localizer', PURPOSE, ScanLocalizerParameters):
         return 0
     return run(ScanLocalizer, args)
 

@@ -70,7 +70,7 @@ _OLD_FORMS = {
 _LETTERS = string.ascii_letters + string.digits
 
 
-class ArgumentsError(UsageError):
+class TransformArgumentsError(UsageError):
     """The command line is wrong; text and exit code are those of the original."""
 
     exit_code = 1
@@ -102,10 +102,14 @@ def parse(
     if len(rest) in _OLD_FORMS:
         warn('Old-style arguments are deprecated; see --help for new-style arguments')
         if values:
-            raise ArgumentsError('Cannot specify both new-style (flags) and old-style (arguments)')
+            raise TransformArgumentsError(
+                'Cannot specify both new-style (flags) and old-style (arguments)'
+            )
         values = dict(zip(_OLD_FORMS[len(rest)], rest, strict=True))
     elif rest:
-        raise ArgumentsError(f'Extra unparsed arguments on command-line: {" ".join(rest)}')
+        raise TransformArgumentsError(
+            f'Extra unparsed arguments on command-line: {" ".join(rest)}'
+        )
     return _request(values)
 
 
@@ -121,7 +125,7 @@ def _flags(words: Sequence[str]) -> tuple[dict[str, str], list[str]]:
             continue
         value = next(rest, None)
         if value is None:
-            raise ArgumentsError(f'Not enough arguments for {word}')
+            raise TransformArgumentsError(f'Not enough arguments for {word}')
         values[name] = value
     return values, others
 
@@ -130,14 +134,14 @@ def _request(values: dict[str, str]) -> StaticTransform:
     """Return the transform of the given values. Raises ArgumentsError."""
     numbers = {name: _number(name, values[name]) for name in _NUMBERS if name in values}
     if not numbers.keys().isdisjoint(_ANGLES) and not numbers.keys().isdisjoint(_QUATERNION):
-        raise ArgumentsError('Cannot specify both quaternion and Euler rotations')
+        raise TransformArgumentsError('Cannot specify both quaternion and Euler rotations')
     parent, child = (values.get(name, '') for name in _FRAMES)
     if not parent:
-        raise ArgumentsError('Frame id must not be empty')
+        raise TransformArgumentsError('Frame id must not be empty')
     if not child:
-        raise ArgumentsError('Child frame id must not be empty')
+        raise TransformArgumentsError('Child frame id must not be empty')
     if parent.removeprefix('/') == child.removeprefix('/'):
-        raise ArgumentsError(
+        raise TransformArgumentsError(
             f"cannot publish static transform from '{parent}' to '{child}', exiting: "
             'child_frame_id cannot equal frame_id'
         )
@@ -153,7 +157,7 @@ def _rotation(numbers: dict[str, float]) -> tuple[float, float, float, float]:
     rotation = (x, y, z, numbers.get('qw', 1.0))
     if not is_unit(rotation):
         length = math.hypot(*rotation)
-        raise ArgumentsError(
+        raise TransformArgumentsError(
             f'The quaternion {rotation} (qx, qy, qz, qw) has the length {length:g} instead of 1, '
             'so every listener would ignore the transform'
             + (f'; of length 1 is {normalize(rotation)}' if length else '')
@@ -167,7 +171,7 @@ def _number(name: str, word: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ArgumentsError(f"Failed to parse --{name} argument as float: '{word}'")
+        raise TransformArgumentsError(f"Failed to parse --{name} argument as float: '{word}'")
     return value
 
 
@@ -210,11 +214,11 @@ def publish(args: list[str] | None) -> int:
     wants_help = not {'-h', '--help'}.isdisjoint(words)
     if wants_help or not words:
         print_now(USAGE)
-        return 0 if wants_help else ArgumentsError.exit_code
+        return 0 if wants_help else TransformArgumentsError.exit_code
     logger = get_logger('static_transform_publisher')
     try:
         request = parse(words, logger.warning)
-    except ArgumentsError as error:
+    except TransformArgumentsError as error:
         logger.error(f'error parsing command line arguments: {error} (see --help)')
         return error.exit_code
     return run(lambda: StaticTransformPublisher(request), args)

@@ -71,7 +71,7 @@ _PATIENCE = 5.0
 
 
 @dataclass(frozen=True)
-class Parameters:
+class TruthLocalizerParameters:
     """Names are those of nav2_loopback_sim, ``transform_tolerance`` that of amcl."""
 
     update_duration: float = parameter(
@@ -113,7 +113,7 @@ class Parameters:
 
 
 @dataclass(frozen=True)
-class _Place:
+class _TruePlace:
     """Where the robot was at an instant."""
 
     root: Transform
@@ -127,7 +127,7 @@ class TruthLocalizer(Node):
 
     def __init__(self) -> None:
         super().__init__('truth_localizer')
-        self._settings = declare(self, Parameters)
+        self._settings = declare(self, TruthLocalizerParameters)
         self._period = round(self._settings.update_duration * NANOSECONDS)
         self._buffer = Buffer(clock=self.get_clock())
         self._listener = TransformListener(self._buffer, self)
@@ -141,7 +141,7 @@ class TruthLocalizer(Node):
         )
         self._mover = EntityMover(self, self._settings.simulator, self._settings.entity)
         self._map_to_world = Pose(0.0, 0.0, 0.0)
-        self._place: _Place | None = None
+        self._place: _TruePlace | None = None
         self._child_frame = ''
         self._last_frames: tuple[str, str] | None = None
         self._latest = self._published = -1
@@ -202,7 +202,7 @@ class TruthLocalizer(Node):
         self._topics.send_transform(stamp, map_to_odom, odom)
         odom_to_base = self._odom_to_base(odom, message)
         if odom_to_base is not None:
-            self._place = _Place(
+            self._place = _TruePlace(
                 transform_of(message.pose.pose), world_to_odom.compose(odom_to_base)
             )
             self._topics.send_pose(stamp, map_to_odom.compose(odom_to_base), np.zeros((3, 3)))
@@ -266,7 +266,7 @@ class TruthLocalizer(Node):
 
 def main(args: list[str] | None = None) -> int:
     """Localize until Ctrl-C."""
-    if print_help(args, 'truth_localizer', PURPOSE, Parameters):
+    if print_help(args, 'truth_localizer', PURPOSE, TruthLocalizerParameters):
         return 0
     return run(TruthLocalizer, args)
 

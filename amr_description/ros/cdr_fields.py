@@ -17,7 +17,7 @@ import struct
 from typing import Any, TypeAlias
 
 from amr_description.cdr.cursor import BEGIN, Cursor, ORDERS
-from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import FieldGroup, Layout, Many, Number, Text
 from amr_description.errors import AmrError
 from amr_description.ros.cdr_types import layout_of
 from amr_description.text import did_you_mean, shorten
@@ -99,7 +99,7 @@ def _steps(layout: Layout, path: str) -> list[str | int]:
 
 def _below(layout: Layout, step: re.Match[str], before: str) -> Layout:
     name, index = step[1], step[2]
-    if name is not None and isinstance(layout, Group):
+    if name is not None and isinstance(layout, FieldGroup):
         if (found := layout.field(name)) is not None:
             return found
         names = [field for field, _ in layout.fields]
@@ -119,7 +119,7 @@ def _kind(layout: Layout) -> str:
             return f'a number ({name})'
         case Text():
             return 'a string'
-        case Group(name=name):
+        case FieldGroup(name=name):
             return f'a message ({name})'
         case Many(count=None):
             return 'a sequence'
@@ -143,7 +143,7 @@ class _Walk(Cursor):
             assert isinstance(layout, Number), 'as its path was found'
             self.numbers[wanted] = self.align(layout), layout.code
             self.at += layout.size
-        elif isinstance(layout, Group):
+        elif isinstance(layout, FieldGroup):
             last = [name for name, _ in layout.fields if name in wanted][-1]
             for name, field in layout.fields:
                 ends = is_last and name == last

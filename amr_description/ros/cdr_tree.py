@@ -20,7 +20,7 @@ import struct
 from typing import Any
 
 from amr_description.cdr.cursor import BEGIN, Cursor, ORDERS
-from amr_description.cdr.layouts import Group, Layout, Many, Number, Text
+from amr_description.cdr.layouts import FieldGroup, Layout, Many, Number, Text
 
 MOST_NUMBERS = 64
 """Of an array of numbers, or of strings."""
@@ -33,7 +33,7 @@ MOST_LEAVES = 3000
 _EXACT = 2**53
 
 
-def read_tree(layout: Group, data: bytes) -> dict[str, Any]:
+def read_tree(layout: FieldGroup, data: bytes) -> dict[str, Any]:
     """Return a message as a tree. Raises ValueError: it is broken."""
     try:
         return _TreeReader(data).group(layout)
@@ -48,7 +48,7 @@ class _TreeReader(Cursor):
         super().__init__(data)
         self._left = MOST_LEAVES
 
-    def group(self, layout: Group) -> dict[str, Any]:
+    def group(self, layout: FieldGroup) -> dict[str, Any]:
         if not layout.fields:
             self.skip(layout)  # it has one byte
         return {name: self._part(field) for name, field in layout.fields}
@@ -59,7 +59,7 @@ class _TreeReader(Cursor):
                 return self._numbers(layout, 1)[0]
             case Text():
                 return self._text(layout)
-            case Group():
+            case FieldGroup():
                 return self.group(layout)
             case Many():
                 return self._many(layout)
@@ -94,7 +94,7 @@ class _TreeReader(Cursor):
         count, element = layout.count, layout.element
         if count is None:
             count = self.count()
-        most = MOST_MESSAGES if isinstance(element, Group | Many) else MOST_NUMBERS
+        most = MOST_MESSAGES if isinstance(element, FieldGroup | Many) else MOST_NUMBERS
         shown = min(count, most, max(self._left, 0))
         if isinstance(element, Number):
             first = self._numbers(element, shown) if shown else []

@@ -15,11 +15,11 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
-from amr_description.cdr.layouts import CODES, Group, group, Layout, many, Number, Text
+from amr_description.cdr.layouts import CODES, FieldGroup, group, Layout, many, Number, Text
 
 
 @cache
-def layout_of(message_type: Any) -> Group:
+def layout_of(message_type: Any) -> FieldGroup:
     """Return the layout of the messages of a class."""
     module, name = message_type.__module__.split('.')[0], message_type.__name__
     slots = zip(message_type.get_fields_and_field_types(), message_type.SLOT_TYPES, strict=True)

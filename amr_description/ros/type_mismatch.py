@@ -48,23 +48,25 @@ def mismatches(
 
 
 @dataclass(frozen=True, slots=True, order=True)
-class Listener:
+class MismatchListener:
     """A node that subscribes to the topic, by its full name, and the type of its subscription."""
 
     node: str
     type_name: str
 
 
-def listeners(node: Node, topic: str) -> list[Listener]:
+def listeners(node: Node, topic: str) -> list[MismatchListener]:
     """Return who subscribes to a topic of ``node``, before remapping, each once."""
     found = node.get_subscriptions_info_by_topic(topic)
-    return sorted({Listener(endpoint_node(each) or NAMELESS, each.topic_type) for each in found})
+    return sorted(
+        {MismatchListener(endpoint_node(each) or NAMELESS, each.topic_type) for each in found}
+    )
 
 
-def await_listeners(node: Node, topic: str, timeout: float) -> list[Listener]:
+def await_listeners(node: Node, topic: str, timeout: float) -> list[MismatchListener]:
     """As :func:`listeners`, but wait up to ``timeout`` s for the first, and for their names."""
 
-    def known() -> list[Listener] | None:
+    def known() -> list[MismatchListener] | None:
         found = listeners(node, topic)
         return found if found and NAMELESS not in [each.node for each in found] else None
 
@@ -80,19 +82,19 @@ def other_topics(node: Node) -> list[str]:
     ]
 
 
-def wants_stamped(found: Iterable[Listener], *, otherwise: bool) -> bool:
+def wants_stamped(found: Iterable[MismatchListener], *, otherwise: bool) -> bool:
     """Whether all subscribe to the stamped type; ``otherwise``: there are both, or none."""
     wanted = {each.type_name for each in found}
     kinds = [stamped for stamped, name in TYPE_NAMES.items() if name in wanted]
     return kinds[0] if len(kinds) == 1 else otherwise
 
 
-def is_wanted(found: Iterable[Listener], stamped: bool) -> bool:
+def is_wanted(found: Iterable[MismatchListener], stamped: bool) -> bool:
     """Whether somebody subscribes to this type."""
     return any(each.type_name == TYPE_NAMES[stamped] for each in found)
 
 
-def choice(topic: str, found: Iterable[Listener], *, stamped: bool) -> str:
+def choice(topic: str, found: Iterable[MismatchListener], *, stamped: bool) -> str:
     """Return the line that says which type is published, for whom."""
     ours = TYPE_NAMES[stamped]
     served = [each.node for each in found if each.type_name == ours]
@@ -100,7 +102,7 @@ def choice(topic: str, found: Iterable[Listener], *, stamped: bool) -> str:
     return f'publishing {_short(ours)} on {topic}: {" and ".join(served)} {verb} it'
 
 
-def warnings(topic: str, found: Iterable[Listener], *, stamped: bool) -> list[str]:
+def warnings(topic: str, found: Iterable[MismatchListener], *, stamped: bool) -> list[str]:
     """Return a line for each that subscribes to the other type: nothing reaches it."""
     return [
         f'WARNING: {each.node} wants {_short(each.type_name)} on {topic}, but this publishes '

@@ -38,7 +38,7 @@ _MOST_LAYERS = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Scan:
+class LidarScan:
     """
     One measurement of a lidar.
 
@@ -96,7 +96,7 @@ def cloud_rays(lidar: Lidar) -> Singles:
     return ray_directions(lidar).astype(np.float32).reshape(shape)
 
 
-def met_ranges(scan: Scan) -> Singles:
+def met_ranges(scan: LidarScan) -> Singles:
     """Return the ranges of a scan, (rings, samples); NaN where they are infinite."""
     return np.where(np.isfinite(scan.ranges), scan.ranges, np.float32(np.nan))
 
@@ -141,7 +141,7 @@ class SimulatedLidar:
         """Whether it knows already what is its own in this scene."""
         return self._binding is not None and self._binding.key is scene.all_seen
 
-    def measure(self, time: int, body: int, scene: RayScene) -> Scan:
+    def measure(self, time: int, body: int, scene: RayScene) -> LidarScan:
         """
         Return what the lidar measures.
 
@@ -164,7 +164,7 @@ class SimulatedLidar:
         # A miss has the id -1, which is the last one here: 0.
         intensities = binding.intensities[geoms]
         intensities[distances > self.lidar.range_max] = 0.0
-        return Scan(
+        return LidarScan(
             time,
             self._measured(distances, time).astype(np.float32).reshape(self._shape),
             intensities.reshape(self._shape),

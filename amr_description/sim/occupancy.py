@@ -30,7 +30,7 @@ from amr_description.maps.rasterization import (
     reached,
 )
 from amr_description.sim.rays import RayScene
-from amr_description.sim.sections import Section, section
+from amr_description.sim.sections import GeomSection, section
 from amr_description.sim.world_file import load_world
 
 LIDAR_HEIGHT = 0.25
@@ -106,7 +106,7 @@ class _Static:
     data: mujoco.MjData
     geoms: list[int]
 
-    def section(self, geom: int, settings: MapSettings) -> Section:
+    def section(self, geom: int, settings: MapSettings) -> GeomSection:
         """Return what of a geom is in the map."""
         high = settings.height if settings.top is None else settings.top
         return section(self.model, self.data, geom, settings.height, high)
@@ -216,7 +216,9 @@ def _bounds(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> NDArray[np
     return corners[:, :2]
 
 
-def _fill(occupied: Mask, cut: Section, lowest: NDArray[np.float64], resolution: float) -> None:
+def _fill(
+    occupied: Mask, cut: GeomSection, lowest: NDArray[np.float64], resolution: float
+) -> None:
     """Set the cells that a section touches."""
     for part in cut.parts:
         fill_convex(occupied, (part - lowest) / resolution)

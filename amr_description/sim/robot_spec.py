@@ -86,7 +86,7 @@ _NO_ROLLERS: Mapping[str, Rollers] = {}
 
 
 @dataclass(frozen=True, slots=True)
-class JointState:
+class JointPlace:
     """Position and velocity of a joint: rad and rad/s, or m and m/s."""
 
     position: float
@@ -111,7 +111,7 @@ class RobotSpec:
     """The sliding friction of the named geoms whose link has one of its own."""
     commands: Mapping[str, Collection[str]]
     """The command interfaces of each joint in a ``<ros2_control>`` block."""
-    initial_states: Mapping[str, JointState]
+    initial_states: Mapping[str, JointPlace]
     """Of the joints that do not begin at rest at 0."""
     free_joint: str | None
     """The name of the root's free joint; None: the robot stands fixed in the world."""
@@ -309,7 +309,7 @@ def _name_casters(spec: mujoco.MjSpec) -> tuple[str, ...]:
 
 def initial_states(
     robot: Robot, controlled: Iterable[ComponentInfo], log: Log, *, strict: bool = False
-) -> dict[str, JointState]:
+) -> dict[str, JointPlace]:
     """
     Return where joints are at spawn and after a reset: those that do not begin at rest at 0.
 
@@ -336,8 +336,8 @@ def initial_states(
     leading = [joint for joint in robot.joints if mimics[joint.name] is None]
     given[POSITION] = _within_limits(robot, leading, given[POSITION], log, strict=strict)
 
-    def state_of(joint: str) -> JointState:
-        return JointState(given[POSITION].get(joint, 0.0), given[VELOCITY].get(joint, 0.0))
+    def state_of(joint: str) -> JointPlace:
+        return JointPlace(given[POSITION].get(joint, 0.0), given[VELOCITY].get(joint, 0.0))
 
     states = {}
     for joint in robot.joints:
@@ -345,11 +345,11 @@ def initial_states(
         state = state_of(joint.name)
         if mimic is not None:
             source = state_of(mimic.joint)
-            state = JointState(
+            state = JointPlace(
                 mimic.offset + mimic.multiplier * source.position,
                 mimic.multiplier * source.velocity,
             )
-        if joint.has_position and state != JointState(0.0, 0.0):
+        if joint.has_position and state != JointPlace(0.0, 0.0):
             states[joint.name] = state
     return states
 

@@ -41,7 +41,7 @@ _SPHERES = 65
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class GeomSection:
     """What of one geom is there, in the plane of the world, m."""
 
     parts: tuple[Floats, ...]
@@ -52,7 +52,7 @@ class Section:
 
 def section(
     model: mujoco.MjModel, data: mujoco.MjData, geom: int, low: float, high: float
-) -> Section:
+) -> GeomSection:
     """
     Return what of a geom is between two heights, or at one.
 
@@ -90,7 +90,7 @@ def section(
             # A field is, though its bottom has fewer corners than its sides.
             closed = kind == _Type.mjGEOM_HFIELD or is_closed(faces)
             return _of_triangles(vertices @ turn.T + position, faces, low, high, closed=closed)
-    return Section(())
+    return GeomSection(())
 
 
 def triangles(model: mujoco.MjModel, geom: int) -> tuple[Floats, Triangles]:
@@ -107,13 +107,13 @@ def triangles(model: mujoco.MjModel, geom: int) -> tuple[Floats, Triangles]:
     return vertices, model.mesh_face[start : start + end].astype(np.intp)
 
 
-def _of_edges(points: Floats, edges: NDArray[np.intp], low: float, high: float) -> Section:
+def _of_edges(points: Floats, edges: NDArray[np.intp], low: float, high: float) -> GeomSection:
     """Cut a convex polyhedron (n, 3), or a flat polygon, given by its edges."""
     return _around(cut_between(points, edges, low, high))
 
 
-def _around(points: Floats) -> Section:
-    return Section((planar_hull(points),)) if len(points) else Section(())
+def _around(points: Floats) -> GeomSection:
+    return GeomSection((planar_hull(points),)) if len(points) else GeomSection(())
 
 
 def _circle(radius: float) -> Floats:
@@ -146,7 +146,7 @@ def _levels(low: float, high: float, bottom: float, top: float) -> Floats:
     return np.unique([*np.linspace(first, last, _LEVELS), middle])
 
 
-def _of_ellipsoid(center: Floats, axes: Floats, low: float, high: float) -> Section:
+def _of_ellipsoid(center: Floats, axes: Floats, low: float, high: float) -> GeomSection:
     """
     Cut an ellipsoid: the image of the unit sphere by ``axes`` (3, 3), moved to ``center``.
 
@@ -163,12 +163,12 @@ def _of_ellipsoid(center: Floats, axes: Floats, low: float, high: float) -> Sect
         offset = (level - center[2]) / reach
         ring = offset * normal + math.sqrt(max(0.0, 1.0 - offset * offset)) * (circle @ across)
         found.append((ring @ axes.T + center)[:, :2])
-    return _around(np.concatenate(found)) if found else Section(())
+    return _around(np.concatenate(found)) if found else GeomSection(())
 
 
 def _of_capsule(
     center: Floats, half_axis: Floats, radius: float, low: float, high: float
-) -> Section:
+) -> GeomSection:
     """Cut a capsule: a sphere swept along a segment from -half_axis to half_axis."""
     rise = float(half_axis[2])
     reach = abs(rise) + radius
@@ -186,24 +186,24 @@ def _of_capsule(
         radii = np.sqrt(np.maximum(0.0, radius**2 - (offset - along * rise) ** 2))
         middles = center[:2] + along[:, None] * half_axis[:2]
         found.append((middles[:, None] + radii[:, None, None] * circle).reshape(-1, 2))
-    return _around(np.concatenate(found)) if found else Section(())
+    return _around(np.concatenate(found)) if found else GeomSection(())
 
 
 def _of_triangles(
     vertices: Floats, faces: Triangles, low: float, high: float, *, closed: bool
-) -> Section:
+) -> GeomSection:
     """Cut a mesh: of one that is closed, what is inside is solid."""
     heights = vertices[faces][:, :, 2]
     if low == high:
         cuts = _cuts(vertices, faces, low)
-        return Section(tuple(cuts), cuts if closed else None)
+        return GeomSection(tuple(cuts), cuts if closed else None)
     touched = faces[(heights.min(axis=1) <= high) & (heights.max(axis=1) >= low)]
     parts = [
         part
         for corners in vertices[touched]
         for part in _of_edges(corners, _TRIANGLE_EDGES, low, high).parts
     ]
-    return Section(tuple(parts), _cuts(vertices, faces, low) if closed else None)
+    return GeomSection(tuple(parts), _cuts(vertices, faces, low) if closed else None)
 
 
 def _cuts(vertices: Floats, faces: Triangles, level: float) -> Floats:

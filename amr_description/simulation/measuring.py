@@ -17,14 +17,14 @@ from amr_description.model.sensors import (
 )
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.cameras.pictures import encoded
-from amr_description.sim.cameras.renderer import Picture, Shot
+from amr_description.sim.cameras.renderer import RenderedPicture, Shot
 from amr_description.sim.cameras.simulated_camera import SimulatedCamera
 from amr_description.sim.cameras.viewpoints import FIELD_OF_VIEW, viewpoint
 from amr_description.sim.contact_sensor import SimulatedContacts
 from amr_description.sim.lidar import (
     cloud_rays,
+    LidarScan as Measurement,
     met_ranges,
-    Scan as Measurement,
     scan_angles,
     SimulatedLidar,
 )
@@ -143,7 +143,7 @@ class Measuring:
         *,
         with_color: bool = False,
         with_depth: bool = False,
-    ) -> tuple[SimulatedCamera, Picture]:
+    ) -> tuple[SimulatedCamera, RenderedPicture]:
         known, path = self._cameras.setdefault(view, {}), camera.mount.path
         if path not in known:
             known[path] = SimulatedCamera(camera, view, self._states)

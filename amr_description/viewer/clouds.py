@@ -26,7 +26,7 @@ _INTENSITIES = ('intensity', 'intensities', 'reflectivity', 'i')
 Colouring: TypeAlias = Literal['rgb', 'intensity', 'none']
 
 
-class Field(Protocol):
+class PointField(Protocol):
     """A field of the points."""
 
     @property
@@ -60,7 +60,12 @@ class ThinCloud:
 
 
 def thinned(
-    count: int, step: int, fields: Iterable[Field], data: np.ndarray, *, is_bigendian: bool = False
+    count: int,
+    step: int,
+    fields: Iterable[PointField],
+    data: np.ndarray,
+    *,
+    is_bigendian: bool = False,
 ) -> ThinCloud:
     """
     Return at most :data:`MOST_POINTS` points of a cloud, evenly taken from its order.
@@ -108,7 +113,7 @@ def thinned(
     return ThinCloud(points, 'intensity', colours, low, high, count)
 
 
-def _column(records: np.ndarray, field: Field, order: str) -> np.ndarray:
+def _column(records: np.ndarray, field: PointField, order: str) -> np.ndarray:
     """Return the numbers of a field, one a point."""
     kind = _KINDS.get(field.datatype)
     if kind is None:
@@ -117,12 +122,12 @@ def _column(records: np.ndarray, field: Field, order: str) -> np.ndarray:
     return _octets(records, field, dtype.itemsize).view(dtype)[:, 0]
 
 
-def _rgb(records: np.ndarray, field: Field, *, is_bigendian: bool) -> np.ndarray:
+def _rgb(records: np.ndarray, field: PointField, *, is_bigendian: bool) -> np.ndarray:
     octets = _octets(records, field, 4)
     return octets[:, 1:4] if is_bigendian else octets[:, 2::-1]
 
 
-def _octets(records: np.ndarray, field: Field, size: int) -> np.ndarray:
+def _octets(records: np.ndarray, field: PointField, size: int) -> np.ndarray:
     if field.offset + size > records.shape[1]:
         raise ViewerError(
             f'field {field.name!a} of a cloud, at byte {field.offset}, is outside its points of '

@@ -9,10 +9,11 @@ from amr_description.clock import NANOSECONDS
 from amr_description.model.frames import Transform
 from amr_description.navigation.contract.observations import (
     Body,
-    Endpoint,
+    ContractEndpoint,
+    ContractObservations,
+    ContractTopic,
     GRID_TYPE,
     MapSeen,
-    Observations,
     ODOMETRY_TYPE,
     OdometrySeen,
     Phase,
@@ -22,7 +23,6 @@ from amr_description.navigation.contract.observations import (
     ScanGeometry,
     ScanSeen,
     Tick,
-    Topic,
     TransformSeen,
     TWIST_TYPE,
 )
@@ -109,9 +109,9 @@ def phase(linear, angular, top=None, brakes=0.6):
 
 
 def topic(name, type_name, publisher='', subscriber='', **qos):
-    publishers = (Endpoint(publisher, type_name, **qos),) if publisher else ()
-    subscriptions = (Endpoint(subscriber, type_name),) if subscriber else ()
-    return Topic(name, publishers, subscriptions)
+    publishers = (ContractEndpoint(publisher, type_name, **qos),) if publisher else ()
+    subscriptions = (ContractEndpoint(subscriber, type_name),) if subscriber else ()
+    return ContractTopic(name, publishers, subscriptions)
 
 
 def good_robot(**changes):
@@ -121,7 +121,7 @@ def good_robot(**changes):
         (*STATIC, *moving(), *moving('base_link', 'wheel', 10 * MS), *moving('map', 'odom')),
         key=lambda each: each.received,
     )
-    seen = Observations(
+    seen = ContractObservations(
         clock=topic('/clock', CLOCK, '/sim'),
         tf=topic('/tf', TF, '/drive'),
         odom=topic('/odom', ODOMETRY_TYPE, '/drive'),

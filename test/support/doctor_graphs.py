@@ -6,18 +6,18 @@ from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.clock import Clock, ClockTick, TimeSource
 from amr_description.doctor.observations.commands import (
-    Commands,
     CommandSeen,
-    CommandTopic,
-    Drive,
+    ObservedCommands,
+    ObservedCommandTopic,
+    ObservedDrive,
 )
 from amr_description.doctor.observations.graph import (
-    Endpoint,
-    Graph,
     GraphNode,
-    Qos,
+    ObservedEndpoint,
+    ObservedGraph,
+    ObservedQos,
+    ObservedTopic,
     STAMPED_TWIST,
-    Topic,
 )
 
 CLOCK = 'rosgraph_msgs/msg/Clock'
@@ -39,7 +39,7 @@ RESUME = (
 
 def end(node, type_name=STRING, **options):
     """A publisher or a subscription."""
-    return Endpoint(node=node, type_name=type_name, **options)
+    return ObservedEndpoint(node=node, type_name=type_name, **options)
 
 
 def topic(name, publishers=(), subscriptions=()):
@@ -49,7 +49,7 @@ def topic(name, publishers=(), subscriptions=()):
         for ends in (publishers, subscriptions)
     )
     first, second = both
-    return Topic(name=name, publishers=first, subscriptions=second)
+    return ObservedTopic(name=name, publishers=first, subscriptions=second)
 
 
 def node(name, *, use_sim_time=True, **options):
@@ -61,11 +61,15 @@ TOPICS = (
     topic(
         '/clock',
         [end('/mujoco_sim', CLOCK)],
-        [end(DRIVE, CLOCK, qos=Qos(is_reliable=False)), end('/slam', CLOCK)],
+        [end(DRIVE, CLOCK, qos=ObservedQos(is_reliable=False)), end('/slam', CLOCK)],
     ),
-    topic('/scan', [end('/mujoco_sim', SCAN)], [end('/slam', SCAN, qos=Qos(is_reliable=False))]),
+    topic(
+        '/scan',
+        [end('/mujoco_sim', SCAN)],
+        [end('/slam', SCAN, qos=ObservedQos(is_reliable=False))],
+    ),
     topic('/odom', [end(DRIVE, ODOM)], [end('/slam', ODOM)]),
-    topic('/map', [end('/slam', qos=Qos(is_transient_local=True))], []),
+    topic('/map', [end('/slam', qos=ObservedQos(is_transient_local=True))], []),
     topic(COMMANDS, [], [end(DRIVE, STAMPED_TWIST)]),
     topic('/initialpose', [], [end('/slam', 'geometry_msgs/msg/PoseWithCovarianceStamped')]),
 )
@@ -76,7 +80,7 @@ def graph(*more, nodes=NODES, but=()):
     """The graph of the robot, with further topics, or others of the same names."""
     names = {*but, *(each.name for each in more)}
     kept = tuple(each for each in TOPICS if each.name not in names)
-    return Graph(topics=(*kept, *more), nodes=tuple(nodes))
+    return ObservedGraph(topics=(*kept, *more), nodes=tuple(nodes))
 
 
 def ticks(count=20, *, period=50 * MS, factor=1.0, start=START):
@@ -132,13 +136,13 @@ def commands(*seen, publishers=('/navigator',), locks=(), **drive):
         'timeout': 0.5,
         'limits': (('linear.x', -1.0, 1.0), ('angular.z', -2.0, 2.0)),
     }
-    return Commands(
+    return ObservedCommands(
         topics=(
-            CommandTopic(
+            ObservedCommandTopic(
                 name=COMMANDS, publishers=publishers, subscriptions=(DRIVE,), seen=tuple(seen)
             ),
         ),
-        drives=(Drive(**fields | drive),),
+        drives=(ObservedDrive(**fields | drive),),
         locks=locks,
         seconds=2.5,
     )

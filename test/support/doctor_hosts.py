@@ -7,7 +7,7 @@ from dataclasses import replace
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.environment import Environment
 from amr_description.doctor.observations.machine import Disk, Interface, Machine, Python
-from amr_description.doctor.observations.processes import Process, Processes
+from amr_description.doctor.observations.processes import ObservedProcess, Processes
 from amr_description.doctor.table import examine
 
 GIGABYTE = 10**9
@@ -41,7 +41,9 @@ MACHINE = Machine(
     ),
     interfaces=(LOOPBACK, ETHERNET),
 )
-SIMULATOR = Process(pid=100, command='mujoco_sim', domain=0, most_open_files=1024, open_files=20)
+SIMULATOR = ObservedProcess(
+    pid=100, command='mujoco_sim', domain=0, most_open_files=1024, open_files=20
+)
 
 
 def host(*, machine=MACHINE, processes=(), **changes):

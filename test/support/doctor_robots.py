@@ -11,14 +11,21 @@ from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.controllers import (
     Component,
-    Controller,
-    Controllers,
-    LogLine,
-    Manager,
+    ObservedController,
+    ObservedControllers,
+    ObservedLogLine,
+    ObservedManager,
 )
 from amr_description.doctor.observations.description import Description, DescriptionTopic
-from amr_description.doctor.observations.sensors import Image, Imu, Joints, Scan, Sensors, Travel
-from amr_description.doctor.observations.transforms import Edge, Transforms, Tree
+from amr_description.doctor.observations.sensors import (
+    Imu,
+    ObservedImage,
+    ObservedJoints,
+    ObservedScan,
+    ObservedSensors,
+    ObservedTravel,
+)
+from amr_description.doctor.observations.transforms import Edge, ObservedTransforms, Tree
 
 URDF = (ROOT / 'urdf/amr.urdf').read_text(encoding='utf-8')
 SIDES = ('front_left', 'front_right', 'back_left', 'back_right')
@@ -48,10 +55,10 @@ PARAMETERS = {
     'position_feedback': True,
     'open_loop': False,
 }
-BROADCASTER = Controller(
+BROADCASTER = ObservedController(
     name='joint_state_broadcaster', type_name='joint_state_broadcaster/JointStateBroadcaster'
 )
-DRIVER = Controller(
+DRIVER = ObservedController(
     name='diff_drive_controller',
     type_name='diff_drive_controller/DiffDriveController',
     commands=COMMANDS,
@@ -62,14 +69,14 @@ SYSTEM = Component(
     plugin='amr_description/MujocoSystem',
     interfaces=(*COMMANDS, *COMMANDS, *(f'{name}/position' for name in WHEELS)),
 )
-MANAGER = Manager(
+MANAGER = ObservedManager(
     controllers=(DRIVER, BROADCASTER),
     components=(SYSTEM,),
     types=(DRIVER.type_name, BROADCASTER.type_name),
     wanted={each.name: each.type_name for each in (DRIVER, BROADCASTER)},
 )
 DESCRIPTION = DescriptionTopic(publishers=(STATES,), subscribers=('/mujoco_sim',), texts=(URDF,))
-SCAN = Scan(
+SCAN = ObservedScan(
     topic='/scan',
     publishers=('/mujoco_sim',),
     frame='laser',
@@ -81,7 +88,7 @@ SCAN = Scan(
     hits=100,
     infinite=260,
 )
-IMAGE = Image(
+IMAGE = ObservedImage(
     topic='/camera/image_raw',
     publishers=('/camera_driver',),
     frame='base_link',
@@ -97,7 +104,7 @@ IMAGE = Image(
     focal_length=277.0,
 )
 IMU = Imu(topic='/imu', publishers=('/imu_driver',), frame='base_link', age=0)
-JOINTS = Joints(
+JOINTS = ObservedJoints(
     topic='/joint_states',
     publishers=('/joint_state_broadcaster',),
     publisher='/joint_state_broadcaster',
@@ -105,7 +112,7 @@ JOINTS = Joints(
     positions=4,
     age=0,
 )
-TRAVEL = Travel(
+TRAVEL = ObservedTravel(
     topic='/odom',
     publishers=(DRIVE,),
     distance=1.0,
@@ -119,10 +126,10 @@ TRAVEL = Travel(
 def robot(**sections):
     """All that was seen of a healthy robot; ``sections`` in the place of some of it."""
     whole = {
-        'transforms': Transforms(trees=(Tree(edges=EDGES),), is_simulated=True),
+        'transforms': ObservedTransforms(trees=(Tree(edges=EDGES),), is_simulated=True),
         'description': Description(topics=(DESCRIPTION,), of_state_publishers={STATES: URDF}),
-        'controllers': Controllers(managers=(MANAGER,)),
-        'sensors': Sensors(
+        'controllers': ObservedControllers(managers=(MANAGER,)),
+        'sensors': ObservedSensors(
             scans=(SCAN,), images=(IMAGE,), imus=(IMU,), joints=(JOINTS,), travels=(TRAVEL,)
         ),
     }
@@ -132,7 +139,9 @@ def robot(**sections):
 def with_edges(*edges, without=()):
     """A robot with further transforms, and without some of its own, by their children."""
     kept = [each for each in EDGES if each.child not in without]
-    return robot(transforms=Transforms(trees=(Tree(edges=(*kept, *edges)),), is_simulated=True))
+    return robot(
+        transforms=ObservedTransforms(trees=(Tree(edges=(*kept, *edges)),), is_simulated=True)
+    )
 
 
 def with_description(**fields):
@@ -143,8 +152,10 @@ def with_description(**fields):
 
 def with_manager(log=(), **fields):
     """A robot whose controller manager is otherwise; ``log``: node, text, whether an error."""
-    lines = tuple(LogLine(node=node, text=text, is_error=bad) for node, text, bad in log)
-    return robot(controllers=Controllers(managers=(replace(MANAGER, **fields),), log=lines))
+    lines = tuple(ObservedLogLine(node=node, text=text, is_error=bad) for node, text, bad in log)
+    return robot(
+        controllers=ObservedControllers(managers=(replace(MANAGER, **fields),), log=lines)
+    )
 
 
 def with_drive(**fields):

@@ -16,7 +16,7 @@ from amr_description.bag.info_text import Contents, info_text
 from amr_description.bag.qos_text import to_text
 from amr_description.bag.reader import BagReader, reindexed
 from amr_description.bag.recording import BagRecording, offer_of
-from amr_description.bag.rewriting import Output, rewrite
+from amr_description.bag.rewriting import rewrite, RewrittenBag
 from amr_description.errors import BagError
 
 TOPICS = [topic('/map', LATCHED), topic('/tf_static', LATCHED, LATCHED), topic('/scan')]
@@ -159,7 +159,7 @@ def _read(bag: Path, new: Path) -> None:
         for each in recording.topics.values():
             offer_of(each.offered_qos_profiles)
         assert [*reader.messages(['/none'], 2**70, 2**80)] == []
-        rewrite([reader], [Output(new)])
+        rewrite([reader], [RewrittenBag(new)])
     with BagReader(new) as reader:
         for _ in reader.messages():
             pass

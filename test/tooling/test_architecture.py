@@ -33,12 +33,12 @@ FEW_LINES = 80
 # the page) and what a request may name.
 BUDGETS = {
     'modules': 822,
-    'code lines': 90_238,
+    'code lines': 90_372,
     'small modules of one importer beside them': 45,
-    'class names used twice': 106,
+    'class names used twice': 33,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_383,
+    'code lines of helpers in test files': 25_394,
 }
 
 BASE = {

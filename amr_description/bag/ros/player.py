@@ -22,7 +22,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosbag2_interfaces.msg import ReadSplitEvent
 from rosgraph_msgs.msg import Clock
 
-from amr_description.bag.playback import Playback, PlaybackOptions
+from amr_description.bag.playback import BagPlayback, PlaybackOptions
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.recording import BagRecording, is_same_offer, offer_of, SplitWatch
 from amr_description.bag.ros.qos_profiles import to_rclpy
@@ -95,7 +95,7 @@ class Player:
         self._log = node.get_logger()
         self._options = options
         self._on_finished = on_finished
-        self.playback = Playback(recording, options.playback, wall.monotonic_ns)
+        self.playback = BagPlayback(recording, options.playback, wall.monotonic_ns)
         self._log.info(f'Set rate to {options.playback.rate:g}')
         self._calls: deque[Callable[[], None]] = deque()
         self._lock = threading.Lock()  # of what is appended, and whether it still is

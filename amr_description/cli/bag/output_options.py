@@ -8,7 +8,7 @@ from typing import Any
 
 from amr_description.bag import yaml_text
 from amr_description.bag.mcap_writer import PRESETS, WriterOptions
-from amr_description.bag.rewriting import Output
+from amr_description.bag.rewriting import RewrittenBag
 from amr_description.bag.storage import TopicMetadata
 from amr_description.bag.topic_filter import TopicFilter
 from amr_description.bag.topic_selection import full_name
@@ -59,7 +59,7 @@ _WITHOUT_EFFECT = {
 }  # fmt: skip
 
 
-def read_outputs(path: str) -> list[Output]:
+def read_outputs(path: str) -> list[RewrittenBag]:
     """Return the bags that a file asks for. Raises BagError, which begins with ``path``."""
     try:
         text = Path(path).read_text()
@@ -74,7 +74,7 @@ def read_outputs(path: str) -> list[Output]:
     return [_output(bag, f'{path}: output_bags[{number}]') for number, bag in enumerate(bags)]
 
 
-def _output(bag: Any, what: str) -> Output:
+def _output(bag: Any, what: str) -> RewrittenBag:
     values = _values(bag, what)
     if not values['uri']:
         raise BagError(f'{what}: uri is missing: the folder of the bag')
@@ -95,7 +95,7 @@ def _output(bag: Any, what: str) -> Output:
             f'{quote(preset)}'
         )
     custom = {str(key): str(value) for key, value in values['custom_data'].items()}
-    return Output(
+    return RewrittenBag(
         Path(values['uri']),
         holds=_selection(values, what),
         start=values['start_time_ns'] if values['start_time_ns'] >= 0 else None,

@@ -24,7 +24,7 @@ from amr_description.errors import BagError
 
 if TYPE_CHECKING:
     from amr_description.bag.reader import BagReader
-    from amr_description.bag.rewriting import Output
+    from amr_description.bag.rewriting import RewrittenBag
 
 _LATEST = 2**33  # s
 
@@ -91,7 +91,7 @@ class FilterVerb:
     @staticmethod
     def main(args: Namespace) -> int:
         """Write the bag; return 0."""
-        from amr_description.bag.rewriting import Output
+        from amr_description.bag.rewriting import RewrittenBag
 
         chosen = selection(args)
         with open_bags([(Path(args.bag_path), args.storage or None)]) as readers:
@@ -100,7 +100,7 @@ class FilterVerb:
                 raise BagError(
                     f'no topic of {args.bag_path} is meant; it has {", ".join(sorted(topics))}'
                 )
-            return write(readers, args, Output(Path(), chosen.holds))
+            return write(readers, args, RewrittenBag(Path(), chosen.holds))
 
 
 class MergeVerb:
@@ -120,10 +120,10 @@ class MergeVerb:
     @staticmethod
     def main(args: Namespace) -> int:
         """Write the bag; return 0."""
-        from amr_description.bag.rewriting import Output
+        from amr_description.bag.rewriting import RewrittenBag
 
         with open_bags([(Path(path), None) for path in args.bag_paths]) as readers:
-            return write(readers, args, Output(Path()))
+            return write(readers, args, RewrittenBag(Path()))
 
 
 class TrimVerb:
@@ -174,7 +174,7 @@ class TrimVerb:
     def main(args: Namespace) -> int:
         """Write the bag; return 0."""
         from amr_description.bag.recording import BagRecording
-        from amr_description.bag.rewriting import Output
+        from amr_description.bag.rewriting import RewrittenBag
 
         given = (args.start_offset, args.start_time, args.duration, args.end_time)
         if all(each is None for each in given):
@@ -196,7 +196,7 @@ class TrimVerb:
                     f'{args.bag_path} has no message from {_text(start)} to {_text(last)} s: it '
                     f'goes from {_text(whole.start)} to {_text(whole.end)} s'
                 )
-            output = Output(Path(), start=start, end=end, keeps_latched=not args.no_latched)
+            output = RewrittenBag(Path(), start=start, end=end, keeps_latched=not args.no_latched)
             return write(readers, args, output)
 
 
@@ -215,7 +215,7 @@ def _text(time: int) -> str:
     return f'{Decimal(time) / 10**9:f}'
 
 
-def write(readers: 'Sequence[BagReader]', args: Namespace, output: 'Output') -> int:
+def write(readers: 'Sequence[BagReader]', args: Namespace, output: 'RewrittenBag') -> int:
     """
     Write a bag, and print what is in it; return 0.
 

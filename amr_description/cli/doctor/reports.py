@@ -9,7 +9,7 @@ import re
 from typing import TypeAlias
 
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.rules.qos import Fault, faults
+from amr_description.doctor.rules.qos import faults, QosFault
 
 Items: TypeAlias = list[tuple[str, object]]
 
@@ -135,7 +135,7 @@ def _qos(seen: Observations) -> Iterator[tuple[str, object]]:
         yield 'compatibility status', 'No publisher/subscriber pairs found'
 
 
-def _incompatible(fault: Fault) -> str:
+def _incompatible(fault: QosFault) -> str:
     return f'ERROR: {fault.policy}: {fault.offered} is offered, {fault.requested} requested'
 
 

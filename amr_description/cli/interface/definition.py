@@ -24,7 +24,7 @@ def kind_of(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Definition:
+class InterfaceText:
     """The text of a .msg, .srv, .action or .idl file."""
 
     text: str
@@ -41,7 +41,7 @@ class Comments:
 
 def expand(
     name: str,
-    read: Callable[[str], Definition],
+    read: Callable[[str], InterfaceText],
     comments: Comments = Comments(),  # noqa: B008
 ) -> Iterator[str]:
     """
@@ -61,7 +61,7 @@ def expand(
 
 
 def _expand(
-    names: tuple[str, ...], read: Callable[[str], Definition], comments: bool, below: bool
+    names: tuple[str, ...], read: Callable[[str], InterfaceText], comments: bool, below: bool
 ) -> Iterator[str]:
     """``names``: the interface and those that contain it, outermost first."""
     package = names[-1].partition('/')[0]

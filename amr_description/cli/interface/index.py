@@ -9,7 +9,7 @@ from pathlib import Path
 from ament_index_python import get_resource, get_resources
 
 from amr_description.ament_index import packages
-from amr_description.cli.interface.definition import Definition, kind_of, KINDS
+from amr_description.cli.interface.definition import InterfaceText, kind_of, KINDS
 from amr_description.errors import AmrError
 from amr_description.text import did_you_mean, shorten
 
@@ -32,14 +32,14 @@ def interfaces_of(package: str) -> list[str]:
         return []
 
 
-def read_definition(name: str) -> Definition:
+def read_definition(name: str) -> InterfaceText:
     """Return the definition of ``package/msg/Name``. Raises AmrError."""
     path = _path(name)
     try:
         text = path.read_text(encoding='utf-8', errors='replace')
     except OSError as error:
         raise AmrError(f"The interface '{path}' cannot be read: {error.strerror}") from error
-    return Definition(text, idl=path.suffix == '.idl')
+    return InterfaceText(text, idl=path.suffix == '.idl')
 
 
 def split_name(name: str) -> tuple[str, str, str]:

@@ -62,7 +62,7 @@ def main(args: Namespace) -> int:
 
     from amr_description.cli.pkg.licenses import LICENSES, text_of
     from amr_description.cli.pkg.new_package import NewPackage
-    from amr_description.cli.pkg.package_files import Writer
+    from amr_description.cli.pkg.package_files import PackageWriter
 
     if args.license == '?':
         print('Supported licenses:', *LICENSES, sep='\n')
@@ -88,7 +88,7 @@ def main(args: Namespace) -> int:
             'choose a different destination directory or package name'
         )
     _print_summary(package, args.destination_directory)
-    writer = Writer(package, args.destination_directory)
+    writer = PackageWriter(package, args.destination_directory)
     writer.write()
     if package.has_license_text:
         writer.write_license(text_of(package.license, maintainer, date.today().year))

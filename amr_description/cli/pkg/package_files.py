@@ -11,7 +11,7 @@ from amr_description.cli.pkg.templates import cmake, cpp, manifest, python
 from amr_description.errors import AmrError
 
 
-class Writer:
+class PackageWriter:
     """Writes the files of a package, and prints what it does as the original does."""
 
     def __init__(self, package: NewPackage, destination: str) -> None:

@@ -32,7 +32,7 @@ from amr_description.control.ros.services import ManagerServices
 from amr_description.control.ros.status_topics import (
     ActivityTopic,
     DiagnosticsTopic,
-    Introspection,
+    IntrospectionTopics,
 )
 from amr_description.control.snapshot import ManagerSnapshot
 from amr_description.controller_manager.bring_up import bring_up
@@ -85,7 +85,9 @@ class ControllerManagerNode:
             self.destroy()
             raise
 
-    def prepare(self, robot: Robot | None, hardware: Sequence[HardwareInfo]) -> 'PreparedManager':
+    def prepare(
+        self, robot: Robot | None, hardware: Sequence[HardwareInfo]
+    ) -> 'PreparedManagerNode':
         """
         Make a node for each hardware component; on the ROS thread.
 
@@ -103,7 +105,7 @@ class ControllerManagerNode:
                 context=self.context,
             )
             components.append((info, node))
-        return PreparedManager(self, robot, components)
+        return PreparedManagerNode(self, robot, components)
 
     def destroy(self) -> None:
         """Remove the node; on the ROS thread."""
@@ -112,7 +114,7 @@ class ControllerManagerNode:
 
 
 @dataclass(frozen=True)
-class PreparedManager:
+class PreparedManagerNode:
     """A manager whose hardware is not up yet; it may be brought up once."""
 
     manager_node: ControllerManagerNode
@@ -200,7 +202,7 @@ class PreparedManager:
 class RunningManager:
     """A manager with hardware and services."""
 
-    prepared: PreparedManager
+    prepared: PreparedManagerNode
     manager: ControllerManager
     """For the control thread."""
     requests: ManagerRequests
@@ -234,7 +236,7 @@ class StatusTopics:
         self._warns_of_overruns = parameters.start.overruns.print_warnings
         self._activity = ActivityTopic(node, context.publisher)
         self._diagnostics = DiagnosticsTopic(node, context.loop_thread, parameters)
-        self._introspection = Introspection(node, context)
+        self._introspection = IntrospectionTopics(node, context)
         node.add_post_set_parameters_callback(self._on_parameters_set)
 
     def expect_hardware(self) -> None:

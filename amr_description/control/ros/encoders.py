@@ -5,7 +5,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from amr_description.cdr.layouts import Group
+from amr_description.cdr.layouts import FieldGroup
 from amr_description.cdr.template import Template
 from amr_description.messages import encoders
 from amr_description.messages.encoders import Encoder
@@ -21,7 +21,7 @@ class RosForm:
         self._message_class = message_class
 
     @property
-    def layout(self) -> Group:
+    def layout(self) -> FieldGroup:
         """How they are laid out."""
         return layout_of(self._message_class)
 

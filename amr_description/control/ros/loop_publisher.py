@@ -50,7 +50,7 @@ from amr_description.control.ros.encoders import encoder_of
 from amr_description.control.ros.message_recorder import (
     MessageRecorder,
     RecordedInput,
-    RecordedPublisher,
+    RecordedMessagePublisher,
     Sink,
 )
 from amr_description.messages.encoders import Encoder
@@ -205,7 +205,7 @@ class LoopPublisher:
         self._topics: tuple[LoopTopic, ...] = ()
         self._changing_topics = threading.Lock()
         self._recorder: MessageRecorder | None = None
-        self._recorded: tuple[LoopTopic | RecordedPublisher | RecordedInput, ...] = ()
+        self._recorded: tuple[LoopTopic | RecordedMessagePublisher | RecordedInput, ...] = ()
         self._wall_clock, self._look_period = clock, look_period
         self._next_look = 0
         """ns of the wall clock."""
@@ -265,9 +265,9 @@ class LoopPublisher:
 
     # --- recording ----------------------------------------------------------------------------
 
-    def recorded(self, publisher: Publisher) -> RecordedPublisher:
+    def recorded(self, publisher: Publisher) -> RecordedMessagePublisher:
         """Return what publishes at once, and is recorded, until the publisher is destroyed."""
-        recorded = RecordedPublisher(publisher, is_latched=_is_latched(publisher))
+        recorded = RecordedMessagePublisher(publisher, is_latched=_is_latched(publisher))
         self._add_recorded(recorded)
         return recorded
 
@@ -278,7 +278,7 @@ class LoopPublisher:
     def forget(self, ports: Sequence[Input[Any]], publishers: Sequence[Publisher] = ()) -> None:
         """Record nothing of these inputs and publishers, which are destroyed."""
 
-        def is_gone(each: LoopTopic | RecordedPublisher | RecordedInput) -> bool:
+        def is_gone(each: LoopTopic | RecordedMessagePublisher | RecordedInput) -> bool:
             if isinstance(each, RecordedInput):
                 return any(each.port is port for port in ports)
             return any(each.publisher is publisher for publisher in publishers)
@@ -304,7 +304,7 @@ class LoopPublisher:
                     each.newest = _NOTHING
                 each.attach(recorder)
 
-    def _add_recorded(self, each: LoopTopic | RecordedPublisher | RecordedInput) -> None:
+    def _add_recorded(self, each: LoopTopic | RecordedMessagePublisher | RecordedInput) -> None:
         recorder = self._recorder
         if recorder is not None:
             recorder.prepare(each.type_name)  # before the lock, for which the control thread waits

@@ -50,7 +50,7 @@ class MessageRecorder(Protocol):
         """Return what takes the messages that a controller acts on, likewise."""
 
 
-class RecordedPublisher:
+class RecordedMessagePublisher:
     """A publisher of messages that are published now and then; :meth:`LoopPublisher.recorded`."""
 
     def __init__(self, publisher: Publisher, *, is_latched: bool) -> None:

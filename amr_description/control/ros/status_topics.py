@@ -205,7 +205,7 @@ class RegistryTopics:
             statistic.value = value
 
 
-class Introspection:
+class IntrospectionTopics:
     """Both registries of a manager; their numbers are read while somebody subscribes."""
 
     def __init__(self, node: Node, context: LoopContext) -> None:

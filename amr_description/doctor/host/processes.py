@@ -16,7 +16,7 @@ import time
 
 from amr_description.bringup.guardian import RUN_VARIABLE
 from amr_description.bringup.process_usage import start_time
-from amr_description.doctor.observations.processes import Process, Processes, SharedMemory
+from amr_description.doctor.observations.processes import ObservedProcess, Processes, SharedMemory
 from amr_description.ros.local_participants import local_participants
 from amr_description.ros.udp_sockets import udp_sockets
 from amr_description.text import one_line, shorten
@@ -61,7 +61,7 @@ def _domains_by_socket() -> dict[int, int]:
     }
 
 
-def _processes(owners: Mapping[int, int]) -> Iterator[Process]:
+def _processes(owners: Mapping[int, int]) -> Iterator[ObservedProcess]:
     own = os.getpid()
     for folder in sorted(Path('/proc').glob('[0-9]*'), key=lambda each: int(each.name)):
         with suppress(OSError, ValueError):
@@ -71,7 +71,7 @@ def _processes(owners: Mapping[int, int]) -> Iterator[Process]:
                 yield found
 
 
-def _process(folder: Path, owners: Mapping[int, int]) -> Process | None:
+def _process(folder: Path, owners: Mapping[int, int]) -> ObservedProcess | None:
     """Return a process if it is of ROS. Raises OSError: it has gone."""
     variables = _variables(folder)
     run = variables.get(RUN_VARIABLE, '')
@@ -83,7 +83,7 @@ def _process(folder: Path, owners: Mapping[int, int]) -> Process | None:
     state = (folder / 'stat').read_bytes().rpartition(b')')[2].split()[0].decode()
     if state in 'ZX':
         return None
-    return Process(
+    return ObservedProcess(
         pid=int(folder.name),
         command=_command(folder),
         domain=domain,
@@ -95,7 +95,7 @@ def _process(folder: Path, owners: Mapping[int, int]) -> Process | None:
     )
 
 
-def _is_supervised(process: Process) -> bool:
+def _is_supervised(process: ObservedProcess) -> bool:
     """Return whether the supervisor of its run lives, by whose pid the name of a run ends."""
     pid = process.run.rpartition('-')[2]
     started, supervisor = start_time(process.pid), start_time(int(pid) if pid.isdecimal() else 0)

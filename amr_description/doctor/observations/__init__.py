@@ -21,16 +21,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from amr_description.doctor.observations.clock import Clock
-from amr_description.doctor.observations.commands import Commands
-from amr_description.doctor.observations.controllers import Controllers
+from amr_description.doctor.observations.commands import ObservedCommands
+from amr_description.doctor.observations.controllers import ObservedControllers
 from amr_description.doctor.observations.description import Description
 from amr_description.doctor.observations.environment import Environment
-from amr_description.doctor.observations.graph import Graph
+from amr_description.doctor.observations.graph import ObservedGraph
 from amr_description.doctor.observations.machine import Machine
 from amr_description.doctor.observations.processes import Processes
-from amr_description.doctor.observations.sensors import Sensors
-from amr_description.doctor.observations.transforms import Transforms
-from amr_description.navigation.contract.observations import Observations as Navigation
+from amr_description.doctor.observations.sensors import ObservedSensors
+from amr_description.doctor.observations.transforms import ObservedTransforms
+from amr_description.navigation.contract.observations import ContractObservations as Navigation
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,13 +40,13 @@ class Observations:
     machine: Machine | None = None
     environment: Environment | None = None
     processes: Processes | None = None
-    graph: Graph | None = None
+    graph: ObservedGraph | None = None
     clock: Clock | None = None
-    commands: Commands | None = None
-    transforms: Transforms | None = None
+    commands: ObservedCommands | None = None
+    transforms: ObservedTransforms | None = None
     description: Description | None = None
-    controllers: Controllers | None = None
-    sensors: Sensors | None = None
+    controllers: ObservedControllers | None = None
+    sensors: ObservedSensors | None = None
     navigation: Navigation | None = None
     """Of a robot to which Nav2 or slam_toolbox listen."""
     faults: Mapping[str, str] | None = None

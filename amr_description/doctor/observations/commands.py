@@ -32,7 +32,7 @@ class CommandSeen:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class CommandTopic:
+class ObservedCommandTopic:
     """A topic of commands, and what came on it."""
 
     name: str
@@ -44,7 +44,7 @@ class CommandTopic:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Drive:
+class ObservedDrive:
     """A controller that takes commands, by its parameters."""
 
     node: str
@@ -68,16 +68,16 @@ class StopLock:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Commands:
+class ObservedCommands:
     """All that was seen of commands."""
 
-    topics: tuple[CommandTopic, ...] = ()
-    drives: tuple[Drive, ...] = ()
+    topics: tuple[ObservedCommandTopic, ...] = ()
+    drives: tuple[ObservedDrive, ...] = ()
     locks: tuple[StopLock, ...] = ()
     seconds: float = 0.0
     """How long was listened, s."""
 
-    def drives_on(self, topic: str) -> tuple[Drive, ...]:
+    def drives_on(self, topic: str) -> tuple[ObservedDrive, ...]:
         """Return the drives that subscribe to a topic."""
         return tuple(each for each in self.drives if topic in each.topics)
 

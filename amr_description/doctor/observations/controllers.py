@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Controller:
+class ObservedController:
     """A loaded controller."""
 
     name: str
@@ -34,13 +34,13 @@ class Component:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Manager:
+class ObservedManager:
     """A controller manager."""
 
     name: str = '/controller_manager'
     answers: bool = True
     """Whether its services do."""
-    controllers: tuple[Controller, ...] = ()
+    controllers: tuple[ObservedController, ...] = ()
     components: tuple[Component, ...] = ()
     types: tuple[str, ...] = ()
     """Of controllers, that it can load."""
@@ -54,7 +54,7 @@ class Manager:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LogLine:
+class ObservedLogLine:
     """What a node has logged."""
 
     node: str
@@ -64,11 +64,11 @@ class LogLine:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Controllers:
+class ObservedControllers:
     """All controller managers, and who waits for one."""
 
-    managers: tuple[Manager, ...] = ()
+    managers: tuple[ObservedManager, ...] = ()
     spawners: tuple[str, ...] = ()
     """Full names of the nodes of spawners, which end once their controllers are active."""
-    log: tuple[LogLine, ...] = ()
+    log: tuple[ObservedLogLine, ...] = ()
     """Warnings and errors of managers and their controllers."""

@@ -14,7 +14,7 @@ VELOCITY_TYPES = (TWIST, STAMPED_TWIST)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Qos:
+class ObservedQos:
     """What a publisher offers, or a subscription requests, as far as discovery tells."""
 
     is_reliable: bool = True
@@ -27,23 +27,23 @@ class Qos:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Endpoint:
+class ObservedEndpoint:
     """A publisher or a subscription."""
 
     node: str
     type_name: str
     type_hash: str = ''
     """Empty: not known, as of releases before Iron."""
-    qos: Qos = Qos()
+    qos: ObservedQos = ObservedQos()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Topic:
+class ObservedTopic:
     """All endpoints of a topic, but those of the doctor."""
 
     name: str
-    publishers: tuple[Endpoint, ...] = ()
-    subscriptions: tuple[Endpoint, ...] = ()
+    publishers: tuple[ObservedEndpoint, ...] = ()
+    subscriptions: tuple[ObservedEndpoint, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,12 +64,12 @@ class GraphNode:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Graph:
+class ObservedGraph:
     """What discovery shows, without processes that have ended."""
 
-    topics: tuple[Topic, ...] = ()
+    topics: tuple[ObservedTopic, ...] = ()
     nodes: tuple[GraphNode, ...] = ()
 
-    def topic(self, name: str) -> Topic:
+    def topic(self, name: str) -> ObservedTopic:
         """Return a topic; without endpoints, if it is not there."""
-        return next((each for each in self.topics if each.name == name), Topic(name=name))
+        return next((each for each in self.topics if each.name == name), ObservedTopic(name=name))

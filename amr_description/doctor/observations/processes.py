@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Process:
+class ObservedProcess:
     """A process that takes part in a ROS domain, or that a bring-up has started."""
 
     pid: int
@@ -41,7 +41,7 @@ class Processes:
 
     domain: int
     """That of this process."""
-    processes: tuple[Process, ...] = ()
+    processes: tuple[ObservedProcess, ...] = ()
     """Without this one."""
     runs: frozenset[str] = frozenset()
     """Names of the runs of bring-ups whose supervisor lives."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
+class ObservedSource:
     """Where messages come from."""
 
     topic: str
@@ -19,7 +19,7 @@ class Source:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Scan(Source):
+class ObservedScan(ObservedSource):
     """A topic of ``sensor_msgs/msg/LaserScan``, and the last message of it."""
 
     angle_min: float = 0.0
@@ -38,7 +38,7 @@ class Scan(Source):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Image(Source):
+class ObservedImage(ObservedSource):
     """A topic of ``sensor_msgs/msg/Image``, and a message of it."""
 
     width: int = 0
@@ -57,7 +57,7 @@ class Image(Source):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Imu(Source):
+class Imu(ObservedSource):
     """A topic of ``sensor_msgs/msg/Imu``, and the last message of it."""
 
     orientation: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
@@ -67,7 +67,7 @@ class Imu(Source):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Joints(Source):
+class ObservedJoints(ObservedSource):
     """A topic of ``sensor_msgs/msg/JointState``, and what one publisher sends."""
 
     publisher: str = ''
@@ -79,7 +79,7 @@ class Joints(Source):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Travel(Source):
+class ObservedTravel(ObservedSource):
     """What an odometry says of a span of time, and what the simulator says of it."""
 
     distance: float = 0.0
@@ -92,16 +92,16 @@ class Travel(Source):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sensors:
+class ObservedSensors:
     """All sensors."""
 
-    scans: tuple[Scan, ...] = ()
-    images: tuple[Image, ...] = ()
+    scans: tuple[ObservedScan, ...] = ()
+    images: tuple[ObservedImage, ...] = ()
     imus: tuple[Imu, ...] = ()
-    joints: tuple[Joints, ...] = ()
-    travels: tuple[Travel, ...] = ()
+    joints: tuple[ObservedJoints, ...] = ()
+    travels: tuple[ObservedTravel, ...] = ()
 
     @property
-    def framed(self) -> tuple[Source, ...]:
+    def framed(self) -> tuple[ObservedSource, ...]:
         """Those whose messages are in a frame."""
         return (*self.scans, *self.images, *self.imus)

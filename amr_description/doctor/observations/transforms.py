@@ -51,7 +51,7 @@ class Tree:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Transforms:
+class ObservedTransforms:
     """The transforms of all namespaces."""
 
     trees: tuple[Tree, ...] = ()

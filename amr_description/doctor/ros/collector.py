@@ -97,7 +97,7 @@ class Guarded:
             self.fault = one_line(f'{type(error).__name__}: {error}')
 
 
-class Examination:
+class RosExamination:
     """Observes a graph step by step, for a program that has other work meanwhile."""
 
     def __init__(self, node: Node, probes: Mapping[str, Callable[[], Probe]] = PROBES) -> None:
@@ -140,7 +140,7 @@ def collect(
         sections: what was observed otherwise, of the host.
     """
     with what_is_made_goes(node):
-        examination = Examination(node, probes)
+        examination = RosExamination(node, probes)
         spin(lambda: examination.is_done, window)
         return replace(examination.observe(), **sections)
 

@@ -14,10 +14,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool
 
 from amr_description.doctor.observations.commands import (
-    Commands,
     CommandSeen,
-    CommandTopic,
-    Drive,
+    ObservedCommands,
+    ObservedCommandTopic,
+    ObservedDrive,
     StopLock,
 )
 from amr_description.doctor.observations.graph import STAMPED_TWIST, TWIST, VELOCITY_TYPES
@@ -57,7 +57,7 @@ class CommandProbe:
         self._shared = shared_of(node)
         self._began = time.monotonic()
         self._is_simulated = node.count_publishers(CLOCK_TOPIC) > 0
-        self._topics: list[_Topic] = []
+        self._topics: list[_CommandTopic] = []
         self._locks: list[_Lock] = []
         for name, types in sorted(node.get_topic_names_and_types()):
             if {*types} & {*VELOCITY_TYPES}:
@@ -83,11 +83,11 @@ class CommandProbe:
             not each.publishers or (each.is_heard and waited >= SHORTEST) for each in self._topics
         )
 
-    def observe(self) -> Commands:
+    def observe(self) -> ObservedCommands:
         """Return what was heard."""
         self._take()
         topics = tuple(
-            CommandTopic(
+            ObservedCommandTopic(
                 name=each.name,
                 publishers=each.publishers,
                 subscriptions=each.subscriptions,
@@ -95,7 +95,7 @@ class CommandProbe:
             )
             for each in self._topics
         )
-        commands = Commands(
+        commands = ObservedCommands(
             topics=topics,
             drives=tuple(self._drives()),
             locks=tuple(
@@ -117,7 +117,7 @@ class CommandProbe:
         node = self._node
         publishers = node.get_publishers_info_by_topic(name)
         subscriptions = node.get_subscriptions_info_by_topic(name)
-        found = _Topic(name, _names(publishers), _names(subscriptions))
+        found = _CommandTopic(name, _names(publishers), _names(subscriptions))
         self._topics.append(found)
         wanted = {each.topic_type for each in subscriptions}
         offered = sorted(
@@ -151,7 +151,7 @@ class CommandProbe:
             for message, _, _ in lock.heard.take() if lock.heard is not None else ():
                 lock.value = message.data
 
-    def _commands(self, topic: '_Topic') -> Iterator[CommandSeen]:
+    def _commands(self, topic: '_CommandTopic') -> Iterator[CommandSeen]:
         """Yield the commands that came on a topic."""
         publishers = topic.heard.publishers() if topic.heard is not None else {}
         for message, received, gid in topic.seen:
@@ -187,7 +187,7 @@ class CommandProbe:
             if f'{node}{GET_PARAMETERS}' in services and node != own
         }
 
-    def _drives(self) -> Iterable[Drive]:
+    def _drives(self) -> Iterable[ObservedDrive]:
         """Yield the nodes that have a time-out or limits of commands."""
         for node, questions in self._questions.items():
             topics = tuple(each.name for each in self._topics if node in each.subscriptions)
@@ -200,7 +200,7 @@ class CommandProbe:
 
 
 @dataclass(slots=True)
-class _Topic:
+class _CommandTopic:
     name: str
     publishers: tuple[str, ...]
     subscriptions: tuple[str, ...]
@@ -228,7 +228,9 @@ class _Lock:
     value: bool | None = None
 
 
-def drive_of(node: str, topics: tuple[str, ...], values: dict[str, object]) -> Drive | None:
+def drive_of(
+    node: str, topics: tuple[str, ...], values: dict[str, object]
+) -> ObservedDrive | None:
     """Return the drive that a node is, by its parameters; None: it is none."""
     name = next((each for each in _TIMEOUTS if each in values), '')
     timeout = values.get(name)
@@ -246,7 +248,7 @@ def drive_of(node: str, topics: tuple[str, ...], values: dict[str, object]) -> D
     if isinstance(timeout, int | float):
         # That of tricycle_controller is in milliseconds, and an integer.
         seconds = timeout * _MILLISECOND if isinstance(timeout, int) else timeout
-    return Drive(
+    return ObservedDrive(
         node=node,
         topics=topics,
         timeout=seconds,

@@ -16,10 +16,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from amr_description.doctor.observations.controllers import (
     Component,
-    Controller,
-    Controllers,
-    LogLine,
-    Manager,
+    ObservedController,
+    ObservedControllers,
+    ObservedLogLine,
+    ObservedManager,
 )
 from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.questions import AllParametersQuestion, question
@@ -39,7 +39,7 @@ class ControllersProbe:
 
     def __init__(self) -> None:
         self._asked: dict[str, _Asked] = {}
-        self._lines: dict[tuple[str, str], LogLine] = {}
+        self._lines: dict[tuple[str, str], ObservedLogLine] = {}
         self._spawners: tuple[str, ...] = ()
 
     def begin(self, node: Node) -> None:
@@ -69,10 +69,10 @@ class ControllersProbe:
             return False
         return time.monotonic() - self._began >= _LEAST
 
-    def observe(self) -> Controllers:
+    def observe(self) -> ObservedControllers:
         """Return what was seen."""
         self._take()
-        return Controllers(
+        return ObservedControllers(
             managers=tuple(each.manager() for each in self._asked.values()),
             spawners=self._spawners,
             log=tuple(self._lines.values())[-_KEPT:],
@@ -83,7 +83,9 @@ class ControllersProbe:
             if line.level >= Log.WARN:
                 node = f'/{line.name.replace(".", "/")}'
                 is_error = line.level >= Log.ERROR
-                self._lines[node, line.msg] = LogLine(node=node, text=line.msg, is_error=is_error)
+                self._lines[node, line.msg] = ObservedLogLine(
+                    node=node, text=line.msg, is_error=is_error
+                )
 
 
 class _Asked:
@@ -115,11 +117,11 @@ class _Asked:
         is_known = self._types.response is not None and self._parameters.values is not None
         return is_known and None not in values
 
-    def manager(self) -> Manager:
+    def manager(self) -> ObservedManager:
         """Return what has come."""
         controllers, components = self._controllers.response, self._components.response
         types, values = self._types.response, self._parameters.values or {}
-        return Manager(
+        return ObservedManager(
             name=self.name,
             answers=not self._controllers.is_silent,
             controllers=tuple(
@@ -134,9 +136,9 @@ class _Asked:
             },
         )
 
-    def _controller(self, state: ControllerState) -> Controller:
+    def _controller(self, state: ControllerState) -> ObservedController:
         asked = self._drives.get(state.name)
-        return Controller(
+        return ObservedController(
             name=state.name,
             type_name=state.type,
             state=state.state,

@@ -18,7 +18,13 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from amr_description.doctor.observations.graph import Endpoint, Graph, GraphNode, Qos, Topic
+from amr_description.doctor.observations.graph import (
+    GraphNode,
+    ObservedEndpoint,
+    ObservedGraph,
+    ObservedQos,
+    ObservedTopic,
+)
 from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
 from amr_description.doctor.ros.shared import CLOCK_TOPIC, Shared, shared_of
 from amr_description.ros.endpoints import endpoint_node
@@ -92,7 +98,7 @@ class GraphProbe:
             open_ones = [each for each in open_ones if each.is_reachable()]
         return not open_ones or waited > PATIENCE + _MARGIN
 
-    def observe(self) -> Graph:
+    def observe(self) -> ObservedGraph:
         """Return the graph."""
         host = self._own_host()
         node = self._node
@@ -108,14 +114,14 @@ class GraphProbe:
         here = {each for each in prefixes if host is not None and each[:_HOST] == host}
         running = prefixes - here | running_of(here, node.context.get_domain_id())
         topics = tuple(
-            Topic(
+            ObservedTopic(
                 name=name,
                 publishers=self._ends(publishers, running),
                 subscriptions=self._ends(subscriptions, running),
             )
             for name, (publishers, subscriptions) in found.items()
         )
-        graph = Graph(topics=topics, nodes=tuple(self._nodes(host, running)))
+        graph = ObservedGraph(topics=topics, nodes=tuple(self._nodes(host, running)))
         self._shared.release()
         return graph
 
@@ -179,10 +185,10 @@ class GraphProbe:
 
     def _ends(
         self, found: Iterable[TopicEndpointInfo], running: Collection[bytes]
-    ) -> tuple[Endpoint, ...]:
+    ) -> tuple[ObservedEndpoint, ...]:
         """Return the endpoints of others whose participant runs."""
         return tuple(
-            Endpoint(
+            ObservedEndpoint(
                 node=endpoint_node(each) or _NAMELESS,
                 type_name=each.topic_type,
                 type_hash=_hash_of(each),
@@ -227,9 +233,9 @@ def serves(node: Node, name: str) -> bool:
     return any(_ACTION not in each for each in heard)
 
 
-def qos_of(profile: QoSProfile) -> Qos:
+def qos_of(profile: QoSProfile) -> ObservedQos:
     """Return what rules compare of a discovered QoS."""
-    return Qos(
+    return ObservedQos(
         is_reliable=profile.reliability is not ReliabilityPolicy.BEST_EFFORT,
         is_transient_local=profile.durability is DurabilityPolicy.TRANSIENT_LOCAL,
         is_manual=profile.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC,

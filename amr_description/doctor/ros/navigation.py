@@ -4,7 +4,7 @@
 
 from rclpy.node import Node
 
-from amr_description.navigation.contract.observations import Frames, Observations
+from amr_description.navigation.contract.observations import ContractFrames, ContractObservations
 from amr_description.navigation.ros.contract.collector import Collector
 
 _NODES = frozenset(
@@ -30,13 +30,13 @@ class NavigationProbe:
         here = node.get_namespace()
         names = {n for n, namespace in node.get_node_names_and_namespaces() if namespace == here}
         if names & _NODES:
-            self._collector = Collector(node, Frames(), is_stamped=False)
+            self._collector = Collector(node, ContractFrames(), is_stamped=False)
 
     @property
     def is_done(self) -> bool:
         """Whether enough has come."""
         return self._collector is None or not self._collector.awaited()
 
-    def observe(self) -> Observations | None:
+    def observe(self) -> ContractObservations | None:
         """Return what was seen; None: nothing of navigation is there."""
         return None if self._collector is None else self._collector.observations()

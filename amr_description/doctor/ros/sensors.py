@@ -38,7 +38,7 @@ _LEAST = 0.3
 
 
 @dataclass
-class _Topic:
+class _SensorTopic:
     """A topic, and the last message of each of its publishers."""
 
     kind: Any
@@ -54,7 +54,7 @@ class SensorsProbe:
     def __init__(self, *, only_heard: bool = False) -> None:
         """``only_heard``: leave alone what nobody else hears: a simulator measures it then."""
         self._only_heard = only_heard
-        self._topics: dict[str, _Topic] = {}
+        self._topics: dict[str, _SensorTopic] = {}
 
     def begin(self, node: Node) -> None:
         """
@@ -78,7 +78,7 @@ class SensorsProbe:
             if kind is Odometry and not any(each.endswith(_TRUTH) for each in found):
                 continue
             heard = HeardTopic(node, kind, topic, depth=_DEPTHS.get(kind, 10))
-            self._topics[topic] = _Topic(kind, heard)
+            self._topics[topic] = _SensorTopic(kind, heard)
 
     def _is_heard(self, topic: str, found: Iterable[str]) -> bool:
         """Return whether somebody hears a topic, or the pictures that it is the camera_info of."""
@@ -99,10 +99,10 @@ class SensorsProbe:
             return False
         return time.monotonic() - self._began >= _LEAST
 
-    def observe(self) -> seen.Sensors:
+    def observe(self) -> seen.ObservedSensors:
         """Return what was seen."""
         self._take()
-        found = seen.Sensors(
+        found = seen.ObservedSensors(
             scans=tuple(self._each(LaserScan, _scan)),
             images=tuple(self._images()),
             imus=tuple(self._each(Imu, _imu)),
@@ -130,7 +130,7 @@ class SensorsProbe:
                         return True
         return False
 
-    def _source(self, topic: _Topic, message: Any, received: int) -> dict[str, Any]:
+    def _source(self, topic: _SensorTopic, message: Any, received: int) -> dict[str, Any]:
         names = tuple(topic.heard.publishers().values())
         return {
             'topic': topic.heard.topic,
@@ -145,14 +145,14 @@ class SensorsProbe:
                 message, received = [*topic.last.values()][-1]
                 yield make(message, **self._source(topic, message, received))
 
-    def _images(self) -> Iterable[seen.Image]:
+    def _images(self) -> Iterable[seen.ObservedImage]:
         for topic in self._topics.values():
             if topic.kind is not Image or not topic.last:
                 continue
             message, received = [*topic.last.values()][-1]
             info = self._topics.get(_info_of(topic.heard.topic))
             told = [*info.last.values()][-1][0] if info is not None and info.last else None
-            yield seen.Image(
+            yield seen.ObservedImage(
                 **self._source(topic, message, received),
                 width=message.width,
                 height=message.height,
@@ -165,14 +165,14 @@ class SensorsProbe:
                 focal_length=told.k[0] if told is not None else None,
             )
 
-    def _joints(self) -> Iterable[seen.Joints]:
+    def _joints(self) -> Iterable[seen.ObservedJoints]:
         for topic in self._topics.values():
             names = topic.heard.publishers() if topic.kind is JointState else {}
             for gid, (message, received) in topic.last.items() if names else ():
                 if gid not in names:
                     continue
                 pairs = zip(message.name, message.position, strict=False)
-                yield seen.Joints(
+                yield seen.ObservedJoints(
                     **self._source(topic, message, received),
                     publisher=names[gid] or 'a node without a name',
                     names=tuple(message.name),
@@ -180,7 +180,7 @@ class SensorsProbe:
                     not_numbers=tuple(name for name, value in pairs if not math.isfinite(value)),
                 )
 
-    def _travels(self) -> Iterable[seen.Travel]:
+    def _travels(self) -> Iterable[seen.ObservedTravel]:
         odometry = {n: each for n, each in self._topics.items() if each.kind is Odometry}
         truths = {
             n.removesuffix(_TRUTH): each for n, each in odometry.items() if n.endswith(_TRUTH)
@@ -195,7 +195,7 @@ class SensorsProbe:
                 continue
             said, true = both
             message, received = topic.all[-1]
-            yield seen.Travel(
+            yield seen.ObservedTravel(
                 **self._source(topic, message, received),
                 distance=_distance(said),
                 true_distance=_distance(true),
@@ -210,11 +210,11 @@ def _info_of(image: str) -> str:
     return f'{image.rpartition("/")[0]}/camera_info'
 
 
-def _scan(message: LaserScan, **source: Any) -> seen.Scan:
+def _scan(message: LaserScan, **source: Any) -> seen.ObservedScan:
     ranges = np.asarray(message.ranges, dtype=np.float32)
     finite = ranges[np.isfinite(ranges)]
     lower, upper = np.float32(message.range_min), np.float32(message.range_max)
-    return seen.Scan(
+    return seen.ObservedScan(
         **source,
         angle_min=message.angle_min,
         angle_max=message.angle_max,

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
-from amr_description.doctor.observations.transforms import Edge, Transforms, Tree
+from amr_description.doctor.observations.transforms import Edge, ObservedTransforms, Tree
 from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.shared import RobotTime
 from amr_description.model.frames import Quaternion
@@ -56,7 +56,7 @@ class TransformsProbe:
         roots = {(space, parent) for space, parent, *_ in self._seen} - children
         return len({space for space, _ in roots}) == len(roots)
 
-    def observe(self) -> Transforms:
+    def observe(self) -> ObservedTransforms:
         """Return what was seen of publishers that are still there."""
         self._take()
         names = {key: each.publishers() for key, each in self._heard.items()}
@@ -83,7 +83,7 @@ class TransformsProbe:
                 )
             )
         self._time.release()
-        return Transforms(
+        return ObservedTransforms(
             trees=tuple(
                 Tree(
                     namespace=namespace,

@@ -10,7 +10,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import Finding, Rule, Severity
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.clock import StampSeen
-from amr_description.doctor.observations.graph import Graph
+from amr_description.doctor.observations.graph import ObservedGraph
 from amr_description.doctor.rules.wording import listed, passes_on, right_clock, seconds
 
 OTHER_CLOCK = 60 * NANOSECONDS
@@ -229,7 +229,7 @@ def _apart(lead: int) -> str:
     return f'{seconds(abs(lead))} {"ahead" if lead > 0 else "behind"}'
 
 
-def _stamping(graph: Graph) -> set[str]:
+def _stamping(graph: ObservedGraph) -> set[str]:
     """Return the nodes that publish or subscribe to what is compared by its stamp."""
     return {
         end.node

@@ -10,9 +10,9 @@ from amr_description.doctor.findings import Finding, Rule, Severity
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.commands import (
     CommandSeen,
-    CommandTopic,
-    Drive,
     median_period,
+    ObservedCommandTopic,
+    ObservedDrive,
     series_of,
 )
 from amr_description.doctor.observations.graph import STAMPED_TWIST
@@ -194,16 +194,16 @@ def commands_beyond_limits(seen: Observations) -> Iterator[Finding]:
                 )
 
 
-def _topics(seen: Observations) -> tuple[CommandTopic, ...]:
+def _topics(seen: Observations) -> tuple[ObservedCommandTopic, ...]:
     return seen.commands.topics if seen.commands else ()
 
 
-def _driven(seen: Observations) -> list[CommandTopic]:
+def _driven(seen: Observations) -> list[ObservedCommandTopic]:
     """Return the topics on which something came that a drive takes."""
     return [each for each in _topics(seen) if each.seen and _drives(seen, each)]
 
 
-def _drives(seen: Observations, topic: CommandTopic) -> tuple[Drive, ...]:
+def _drives(seen: Observations, topic: ObservedCommandTopic) -> tuple[ObservedDrive, ...]:
     return seen.commands.drives_on(topic.name) if seen.commands else ()
 
 
@@ -226,7 +226,7 @@ def _overlap(one: list[CommandSeen], other: list[CommandSeen]) -> bool:
     return one[0].received < other[-1].received and other[0].received < one[-1].received
 
 
-def _node_of(topic: CommandTopic) -> str:
+def _node_of(topic: ObservedCommandTopic) -> str:
     # Of a node whose name was not discovered yet the probe says 'a node'.
     return next((each for each in topic.publishers if each.startswith('/')), 'NODE')
 

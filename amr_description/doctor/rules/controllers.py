@@ -7,7 +7,11 @@ import math
 
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.controllers import Controller, Controllers, Manager
+from amr_description.doctor.observations.controllers import (
+    ObservedController,
+    ObservedControllers,
+    ObservedManager,
+)
 from amr_description.doctor.rules.machine import overloaded
 from amr_description.model.checks import examine_drives
 from amr_description.model.checks.context import DriveSettings
@@ -210,15 +214,15 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def _managers(seen: Observations) -> tuple[Manager, ...]:
+def _managers(seen: Observations) -> tuple[ObservedManager, ...]:
     return () if seen.controllers is None else seen.controllers.managers
 
 
-def _inactive(manager: Manager) -> list[Controller]:
+def _inactive(manager: ObservedManager) -> list[ObservedController]:
     return [each for each in manager.controllers if each.state == 'inactive']
 
 
-def _owners(manager: Manager, controller: Controller) -> dict[str, list[str]]:
+def _owners(manager: ObservedManager, controller: ObservedController) -> dict[str, list[str]]:
     """Return who commands what a controller would command, and what of it."""
     found = {}
     for other in manager.controllers:
@@ -228,7 +232,9 @@ def _owners(manager: Manager, controller: Controller) -> dict[str, list[str]]:
     return found
 
 
-def _claim_line(found: Controllers | None, manager: Manager, controller: Controller) -> str:
+def _claim_line(
+    found: ObservedControllers | None, manager: ObservedManager, controller: ObservedController
+) -> str:
     """Return what the manager has logged of the conflict; empty: nobody has tried."""
     for line in found.log if found is not None else ():
         if (
@@ -240,7 +246,7 @@ def _claim_line(found: Controllers | None, manager: Manager, controller: Control
     return ''
 
 
-def _why(found: Controllers | None, manager: Manager, name: str) -> str:
+def _why(found: ObservedControllers | None, manager: ObservedManager, name: str) -> str:
     """Return the last error that is logged of a controller or component, as an addition."""
     own = f'{manager.namespace}/{name}'
     lines = [
@@ -252,17 +258,17 @@ def _why(found: Controllers | None, manager: Manager, name: str) -> str:
     return f'; its log says: {lines[-1]}' if lines else ''
 
 
-def _logger(manager: Manager) -> str:
+def _logger(manager: ObservedManager) -> str:
     """Return the name that a manager logs by."""
     return manager.name.strip('/').replace('/', '.')
 
 
-def _of(manager: Manager) -> str:
+def _of(manager: ObservedManager) -> str:
     """Return the option of ``ros2 control`` that names a manager."""
     return '' if manager.name == '/controller_manager' else f' -c {manager.name}'
 
 
-def _again(controller: Controller, manager: Manager) -> str:
+def _again(controller: ObservedController, manager: ObservedManager) -> str:
     """Return what has a controller read its parameters again."""
     if controller.state == 'finalized':  # no transition leads from there
         unload = f'ros2 control unload_controller {controller.name}{_of(manager)}'
@@ -277,7 +283,7 @@ def _again(controller: Controller, manager: Manager) -> str:
     return ' && '.join(f'ros2 control {each}{_of(manager)}' for each in commands)
 
 
-def _drive(controller: Controller, manager: Manager) -> DriveSettings | None:
+def _drive(controller: ObservedController, manager: ObservedManager) -> DriveSettings | None:
     """Return the parameters of a diff_drive_controller; None: it is another, or they are wrong."""
     values = controller.parameters
     left, right = (_texts(values.get(f'{side}_wheel_names')) for side in ('left', 'right'))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from amr_description.doctor.findings import error, Finding, Rule
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.controllers import Manager
+from amr_description.doctor.observations.controllers import ObservedManager
 from amr_description.doctor.observations.description import DescriptionTopic, examined, robot_of
 from amr_description.doctor.rules.wording import passes_on
 from amr_description.model.robot import Robot
@@ -130,7 +130,7 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def _joints_apart(manager: Manager, robot: Robot) -> tuple[list[str], list[str]]:
+def _joints_apart(manager: ObservedManager, robot: Robot) -> tuple[list[str], list[str]]:
     """Return the joints of the hardware that a description lacks, and the other way round."""
     interfaces = [name.rpartition('/') for each in manager.components for name in each.interfaces]
     simulated = {joint for joint, _, kind in interfaces if kind in _OF_JOINTS}

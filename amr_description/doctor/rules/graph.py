@@ -8,8 +8,8 @@ from collections.abc import Iterator, Sequence
 from amr_description.doctor.findings import Finding, Rule, Severity
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.graph import (
-    Endpoint,
     GraphNode,
+    ObservedEndpoint,
     STAMPED_TWIST,
     VELOCITY_TYPES,
 )
@@ -64,7 +64,9 @@ def mismatched_definitions(seen: Observations) -> Iterator[Finding]:
             )
 
 
-def _unmatched(ends: Sequence[Endpoint], others: Sequence[Endpoint]) -> list[Endpoint]:
+def _unmatched(
+    ends: Sequence[ObservedEndpoint], others: Sequence[ObservedEndpoint]
+) -> list[ObservedEndpoint]:
     """Return the endpoints of nodes that no other one reaches, as all have another type."""
     if not others:
         return []
@@ -74,7 +76,9 @@ def _unmatched(ends: Sequence[Endpoint], others: Sequence[Endpoint]) -> list[End
     return [each for each in ends if each.type_name not in types and each.node not in reached]
 
 
-def _type_fix(topic: str, publishers: Sequence[Endpoint], offered: str, wanted: str) -> str:
+def _type_fix(
+    topic: str, publishers: Sequence[ObservedEndpoint], offered: str, wanted: str
+) -> str:
     if {offered, wanted} != {*VELOCITY_TYPES}:
         return f'use {wanted} in {names_of(publishers)}, or remap it: -r {topic}:={topic}_2'
     is_stamped = wanted == STAMPED_TWIST

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from amr_description.doctor.findings import Finding, Rule, warning
 from amr_description.doctor.observations import Observations
-from amr_description.navigation.contract.findings import Verdict
+from amr_description.navigation.contract.findings import CheckVerdict
 
 _OTHERS = ('clock.', 'time.', 'cmd_vel.', 'drive.', 'tf.one_parent', 'scan.length')
 """Demands that other families of rules hold for all robots, or that take driving."""
@@ -20,7 +20,7 @@ def navigation_contract(seen: Observations) -> Iterator[Finding]:
 
     rules = [each for each in CONTRACT if not each.name.startswith(_OTHERS)]
     for each in examine(seen.navigation, rules):
-        if each.verdict is Verdict.FAILED:
+        if each.verdict is CheckVerdict.FAILED:
             yield warning(
                 'navigation_contract',
                 f'{each.name}: {each.found}; asked: {each.asked}',

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.processes import Process
+from amr_description.doctor.observations.processes import ObservedProcess
 
 _DEFAULT_RMW = 'rmw_fastrtps_cpp'
 _RMW = 'RMW_IMPLEMENTATION'
@@ -142,14 +142,14 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def _of_domain(seen: Observations) -> list[Process]:
+def _of_domain(seen: Observations) -> list[ObservedProcess]:
     if seen.processes is None:
         return []
     own = seen.processes.domain
     return [each for each in seen.processes.processes if each.domain == own]
 
 
-def _names(processes: list[Process]) -> str:
+def _names(processes: list[ObservedProcess]) -> str:
     named = ', '.join(f'{each.command} (pid {each.pid})' for each in processes[:_SHOWN])
     more = len(processes) - _SHOWN
     return f'{named} and {more} more' if more > 0 else named

@@ -14,11 +14,11 @@ from typing import NamedTuple
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import Finding, Severity
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.graph import Endpoint, Qos, Topic
+from amr_description.doctor.observations.graph import ObservedEndpoint, ObservedQos, ObservedTopic
 from amr_description.doctor.rules.wording import names_of
 
 
-class Fault(NamedTuple):
+class QosFault(NamedTuple):
     """A policy by which two do not match."""
 
     policy: str
@@ -52,7 +52,7 @@ def incompatible_qos(seen: Observations) -> Iterator[Finding]:
             )
 
 
-def faults(offered: Qos, requested: Qos) -> list[Fault]:
+def faults(offered: ObservedQos, requested: ObservedQos) -> list[QosFault]:
     """Return the policies by which two do not match."""
     found = []
     if requested.is_reliable and not offered.is_reliable:
@@ -68,14 +68,14 @@ def faults(offered: Qos, requested: Qos) -> list[Fault]:
     return found
 
 
-def _choice(policy: str, offered: str, requested: str) -> Fault:
-    return Fault(policy, offered, requested, offered, requested)
+def _choice(policy: str, offered: str, requested: str) -> QosFault:
+    return QosFault(policy, offered, requested, offered, requested)
 
 
-def _time(policy: str, offered: int | None, requested: int | None) -> Fault:
+def _time(policy: str, offered: int | None, requested: int | None) -> QosFault:
     one, other = _seconds(offered), _seconds(requested)
     longer = f'no {policy}' if offered is None else f'a {policy} of {one}'
-    return Fault(policy, one, other, longer, f'a {policy} of {other} or less')
+    return QosFault(policy, one, other, longer, f'a {policy} of {other} or less')
 
 
 def _seconds(time: int | None) -> str:
@@ -86,9 +86,11 @@ def _is_longer(offered: int | None, requested: int | None) -> bool:
     return requested is not None and (offered is None or offered > requested)
 
 
-def _incompatible(topic: Topic) -> dict[Fault, list[tuple[Endpoint, Endpoint]]]:
+def _incompatible(
+    topic: ObservedTopic,
+) -> dict[QosFault, list[tuple[ObservedEndpoint, ObservedEndpoint]]]:
     """Return the pairs that do not match, by their faults."""
-    found: dict[Fault, list[tuple[Endpoint, Endpoint]]] = {}
+    found: dict[QosFault, list[tuple[ObservedEndpoint, ObservedEndpoint]]] = {}
     for publisher, subscription in product(topic.publishers, topic.subscriptions):
         # A node that subscribes to what it publishes itself may do so with another QoS.
         if publisher.type_name != subscription.type_name or publisher.node == subscription.node:

@@ -10,7 +10,12 @@ import shlex
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.sensors import Image, Joints, Scan, Travel
+from amr_description.doctor.observations.sensors import (
+    ObservedImage,
+    ObservedJoints,
+    ObservedScan,
+    ObservedTravel,
+)
 from amr_description.doctor.observations.transforms import Tree
 from amr_description.doctor.rules.wording import right_clock
 from amr_description.navigation.contract.observations import ScanGeometry
@@ -249,7 +254,7 @@ def joint_state_fields(seen: Observations) -> Iterator[Finding]:
 
 def joint_state_publishers(seen: Observations) -> Iterator[Finding]:
     """A joint has one publisher of its state."""
-    by_topic: dict[str, list[Joints]] = {}
+    by_topic: dict[str, list[ObservedJoints]] = {}
     for each in _joints(seen):
         by_topic.setdefault(each.topic, []).append(each)
     for topic, found in by_topic.items():
@@ -300,7 +305,7 @@ RULES: tuple[Rule, ...] = (
 )
 
 
-def _wrong_way(each: Travel) -> str:
+def _wrong_way(each: ObservedTravel) -> str:
     off = abs(each.distance - each.true_distance)
     longest = max(each.distance, each.true_distance)
     if longest < _LEAST_WAY or off <= _SHARE * longest:
@@ -308,7 +313,7 @@ def _wrong_way(each: Travel) -> str:
     return f'says {each.distance:.2f} m, and the robot went {each.true_distance:.2f} m'
 
 
-def _wrong_turn(each: Travel) -> str:
+def _wrong_turn(each: ObservedTravel) -> str:
     off, largest = abs(each.turn - each.true_turn), max(abs(each.turn), abs(each.true_turn))
     if largest < _LEAST_TURN or off <= _SHARE * largest:
         return ''
@@ -321,21 +326,21 @@ def _meant(frame: str, tree: Tree) -> str:
     return last if last in tree.frames else closest_match(frame, sorted(tree.frames), 0.6)
 
 
-def _pairs_of(found: list[Joints]) -> Iterator[tuple[Joints, Joints]]:
+def _pairs_of(found: list[ObservedJoints]) -> Iterator[tuple[ObservedJoints, ObservedJoints]]:
     for place, first in enumerate(found):
         for second in found[place + 1 :]:
             yield first, second
 
 
-def _scans(seen: Observations) -> tuple[Scan, ...]:
+def _scans(seen: Observations) -> tuple[ObservedScan, ...]:
     return () if seen.sensors is None else seen.sensors.scans
 
 
-def _images(seen: Observations) -> tuple[Image, ...]:
+def _images(seen: Observations) -> tuple[ObservedImage, ...]:
     return () if seen.sensors is None else seen.sensors.images
 
 
-def _joints(seen: Observations) -> tuple[Joints, ...]:
+def _joints(seen: Observations) -> tuple[ObservedJoints, ...]:
     return () if seen.sensors is None else seen.sensors.joints
 
 

@@ -9,8 +9,8 @@ import re
 from amr_description.doctor.findings import Finding, Severity
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.graph import (
+    ObservedTopic,
     STAMPED_TWIST,
-    Topic,
     TWIST,
     VELOCITY_TYPES,
 )
@@ -79,7 +79,9 @@ def distance(one: str, other: str) -> int:
     return last[-1]
 
 
-def _near_miss(here: Topic, there: Topic, offered: set[str], wanted: set[str]) -> Finding:
+def _near_miss(
+    here: ObservedTopic, there: ObservedTopic, offered: set[str], wanted: set[str]
+) -> Finding:
     publisher, subscription = names_of(here.publishers), names_of(there.subscriptions)
     fix = (
         f'start {publisher} with --ros-args -r {here.name}:={there.name}, or {subscription} with '

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 import re
 
 from amr_description.clock import NANOSECONDS
-from amr_description.doctor.observations.graph import Endpoint
+from amr_description.doctor.observations.graph import ObservedEndpoint
 
 _SHOWN = 4
 _PROGRAM = '_ros2cli'
@@ -14,7 +14,7 @@ _PASSES_ON = re.compile(r'bridge|rosbag|record|relay|republish|throttle')
 _PLAYER = 'rosbag2_player'
 
 
-def names_of(endpoints: Iterable[Endpoint]) -> str:
+def names_of(endpoints: Iterable[ObservedEndpoint]) -> str:
     """Return the nodes of endpoints, each once, the first few."""
     return listed([each.node for each in endpoints])
 

@@ -4,14 +4,14 @@
 
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.contract.findings import (
+    CheckOutcome,
     failed,
     not_checked,
-    Outcome,
     outcome,
     passed,
 )
 from amr_description.navigation.contract.observations import (
-    Observations,
+    ContractObservations,
     OdometrySeen,
     Phase,
     STAMPED_TWIST_TYPE,
@@ -41,7 +41,7 @@ _REACHED = 0.95
 _LIMITS = {'linear': 'linear.x', 'angular': 'angular.z'}
 
 
-def listened_to(seen: Observations) -> Outcome:
+def listened_to(seen: ContractObservations) -> CheckOutcome:
     """At the end of ``cmd_vel_nav → cmd_vel_smoothed → cmd_vel`` is the robot."""
     topic = seen.cmd_vel
     velocities = [
@@ -66,7 +66,7 @@ def listened_to(seen: Observations) -> Outcome:
     return failed(found, advice)
 
 
-def of_one_type(seen: Observations) -> Outcome:
+def of_one_type(seen: ContractObservations) -> CheckOutcome:
     """DDS connects equal types only, and tells nobody; Jazzy's Nav2 publishes Twist by default."""
     topic = seen.cmd_vel
     kinds = {each.type_name for each in topic.subscriptions} & {TWIST_TYPE, STAMPED_TWIST_TYPE}
@@ -90,17 +90,17 @@ def of_one_type(seen: Observations) -> Outcome:
     )
 
 
-def linear_speed(seen: Observations) -> Outcome:
+def linear_speed(seen: ContractObservations) -> CheckOutcome:
     """What the velocity smoother commands, open loop."""
     return _reached(seen, 'linear', LINEAR_SPEED, 'm/s')
 
 
-def angular_speed(seen: Observations) -> Outcome:
+def angular_speed(seen: ContractObservations) -> CheckOutcome:
     """What the velocity smoother commands, open loop."""
     return _reached(seen, 'angular', ANGULAR_SPEED, 'rad/s')
 
 
-def braking(seen: Observations) -> Outcome:
+def braking(seen: ContractObservations) -> CheckOutcome:
     """Without commands the robot stops by itself: who sent them may be gone."""
     if not seen.drive:
         return not_checked(seen.not_driven)
@@ -123,7 +123,7 @@ def braking(seen: Observations) -> Outcome:
     )
 
 
-def progress(seen: Observations) -> Outcome:
+def progress(seen: ContractObservations) -> CheckOutcome:
     """A robot that is slower is taken to be stuck."""
     phase = next((each for each in seen.drive if each.linear), None)
     if phase is None:
@@ -145,7 +145,7 @@ def progress(seen: Observations) -> Outcome:
     )
 
 
-def _reached(seen: Observations, kind: str, wanted: float, unit: str) -> Outcome:
+def _reached(seen: ContractObservations, kind: str, wanted: float, unit: str) -> CheckOutcome:
     phase = next((each for each in seen.drive if getattr(each, kind)), None)
     if phase is None:
         return not_checked(seen.not_driven)

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from amr_description.navigation.contract.observations import Observations
+from amr_description.navigation.contract.observations import ContractObservations
 
 
-class Verdict(StrEnum):
+class CheckVerdict(StrEnum):
     """Whether a demand holds."""
 
     PASSED = 'passed'
@@ -18,10 +18,10 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class CheckOutcome:
     """What a rule says of a robot."""
 
-    verdict: Verdict
+    verdict: CheckVerdict
     found: str
     """Figures, and names of nodes; of what is not checked, why."""
     advice: str = ''
@@ -36,7 +36,7 @@ class Rule:
     asked: str
     source: str
     """Whose demand it is."""
-    check: Callable[[Observations], Outcome]
+    check: Callable[[ContractObservations], CheckOutcome]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,28 +44,28 @@ class Finding:
     """One demand and its outcome."""
 
     name: str
-    verdict: Verdict
+    verdict: CheckVerdict
     asked: str
     found: str
     advice: str
     source: str
 
 
-def passed(found: str, advice: str = '') -> Outcome:
+def passed(found: str, advice: str = '') -> CheckOutcome:
     """Return that a demand holds."""
-    return Outcome(Verdict.PASSED, found, advice)
+    return CheckOutcome(CheckVerdict.PASSED, found, advice)
 
 
-def failed(found: str, advice: str) -> Outcome:
+def failed(found: str, advice: str) -> CheckOutcome:
     """Return that a demand does not hold."""
-    return Outcome(Verdict.FAILED, found, advice)
+    return CheckOutcome(CheckVerdict.FAILED, found, advice)
 
 
-def not_checked(found: str, advice: str = '') -> Outcome:
+def not_checked(found: str, advice: str = '') -> CheckOutcome:
     """Return that it is not known whether a demand holds, and why."""
-    return Outcome(Verdict.NOT_CHECKED, found, advice)
+    return CheckOutcome(CheckVerdict.NOT_CHECKED, found, advice)
 
 
-def outcome(holds: bool, found: str, advice: str) -> Outcome:
+def outcome(holds: bool, found: str, advice: str) -> CheckOutcome:
     """Return whether a demand holds; ``advice`` is for the case that it does not."""
     return passed(found) if holds else failed(found, advice)

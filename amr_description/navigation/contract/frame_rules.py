@@ -7,13 +7,17 @@ from itertools import pairwise
 
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.contract.findings import (
+    CheckOutcome,
     failed,
     not_checked,
-    Outcome,
     outcome,
     passed,
 )
-from amr_description.navigation.contract.observations import Observations, ScanSeen, TransformSeen
+from amr_description.navigation.contract.observations import (
+    ContractObservations,
+    ScanSeen,
+    TransformSeen,
+)
 from amr_description.navigation.contract.series import mean_rate, names_of, not_after, seconds
 
 LOWEST_ODOM_RATE = 30.0
@@ -30,7 +34,7 @@ _ODOMETRY_OWNER = (
 )
 
 
-def parents(seen: Observations) -> dict[str, TransformSeen]:
+def parents(seen: ContractObservations) -> dict[str, TransformSeen]:
     """Return the last transform of each frame that has a parent."""
     return {each.child: each for each in seen.transforms}
 
@@ -44,7 +48,7 @@ def ancestors(tree: dict[str, TransformSeen], frame: str) -> Iterator[TransformS
         frame = tree[frame].parent
 
 
-def odometry_edge(seen: Observations) -> TransformSeen | None:
+def odometry_edge(seen: ContractObservations) -> TransformSeen | None:
     """Return the transform from the odometry frame to what is below it on the way to the base."""
     tree, names = parents(seen), seen.frames
     for frame in (names.footprint, names.base):
@@ -54,7 +58,7 @@ def odometry_edge(seen: Observations) -> TransformSeen | None:
     return None
 
 
-def both_bases(seen: Observations) -> Outcome:
+def both_bases(seen: ContractObservations) -> CheckOutcome:
     """Nav2's costmaps use one of the two, AMCL, the collision monitor and SLAM the other."""
     names = seen.frames
     wanted = (names.odom, names.base, names.footprint)
@@ -74,7 +78,7 @@ def both_bases(seen: Observations) -> Outcome:
     )
 
 
-def _both_below_odom(seen: Observations, count: int) -> Outcome:
+def _both_below_odom(seen: ContractObservations, count: int) -> CheckOutcome:
     tree, names = parents(seen), seen.frames
     lost = [
         frame
@@ -105,7 +109,7 @@ def _for_missing(missing: list[str], known: set[str]) -> str:
     )
 
 
-def odometry_moves(seen: Observations) -> Outcome:
+def odometry_moves(seen: ContractObservations) -> CheckOutcome:
     """The pose of the robot in the odometry frame comes with every odometry."""
     names = seen.frames
     edge = odometry_edge(seen)
@@ -122,7 +126,7 @@ def odometry_moves(seen: Observations) -> Outcome:
     )
 
 
-def one_parent(seen: Observations) -> Outcome:
+def one_parent(seen: ContractObservations) -> CheckOutcome:
     """A frame that two nodes publish jumps between their poses."""
     faults = [text for child in parents(seen) if (text := _conflict(seen, child))]
     if not seen.transforms:
@@ -137,7 +141,7 @@ def one_parent(seen: Observations) -> Outcome:
     )
 
 
-def _conflict(seen: Observations, child: str) -> str:
+def _conflict(seen: ContractObservations, child: str) -> str:
     """Return how a frame is published twice; '' if it is not."""
     edges = [each for each in seen.transforms if each.child == child]
     kinds = list(dict.fromkeys((each.parent, each.is_static) for each in edges))
@@ -153,7 +157,7 @@ def _conflict(seen: Observations, child: str) -> str:
     return ''
 
 
-def others_stand_still(seen: Observations) -> Outcome:
+def others_stand_still(seen: ContractObservations) -> CheckOutcome:
     """What else moves moves by a joint; a sensor that is published as moving costs a lookup."""
     edge = odometry_edge(seen)
     if edge is None:
@@ -182,7 +186,7 @@ def others_stand_still(seen: Observations) -> Outcome:
     )
 
 
-def odometry_rate(seen: Observations) -> Outcome:
+def odometry_rate(seen: ContractObservations) -> CheckOutcome:
     """Between two of its transforms nobody knows where the robot is."""
     stamps = _odometry_stamps(seen)
     if len(stamps) < _FEWEST:
@@ -195,7 +199,7 @@ def odometry_rate(seen: Observations) -> Outcome:
     )
 
 
-def odometry_order(seen: Observations) -> Outcome:
+def odometry_order(seen: ContractObservations) -> CheckOutcome:
     """Tf2 ignores a transform whose stamp is not later than the last one."""
     stamps = _odometry_stamps(seen)
     if len(stamps) < _FEWEST:
@@ -212,7 +216,7 @@ def odometry_order(seen: Observations) -> Outcome:
     return passed(f'{len(stamps)} stamps, each later than the one before')
 
 
-def known_at_scans(seen: Observations) -> Outcome:
+def known_at_scans(seen: ContractObservations) -> CheckOutcome:
     """slam_toolbox holds one scan back until the transform at its stamp is known, no longer."""
     if not seen.scans:
         return not_checked(f'no scan came on {seen.scan.name}')
@@ -235,7 +239,7 @@ def known_at_scans(seen: Observations) -> Outcome:
     )
 
 
-def _judged(seen: Observations) -> list[ScanSeen]:
+def _judged(seen: ContractObservations) -> list[ScanSeen]:
     """Return the scans of which it can be said, between the first transforms and the end."""
     knows = [place for place, scan in enumerate(seen.scans) if scan.wait is not None]
     return [
@@ -245,7 +249,7 @@ def _judged(seen: Observations) -> list[ScanSeen]:
     ]
 
 
-def scan_frame_fixed(seen: Observations) -> Outcome:
+def scan_frame_fixed(seen: ContractObservations) -> CheckOutcome:
     """slam_toolbox reads the pose of a lidar on the robot once."""
     if not seen.scans:
         return not_checked(f'no scan came on {seen.scan.name}')
@@ -273,7 +277,7 @@ def scan_frame_fixed(seen: Observations) -> Outcome:
     )
 
 
-def _odometry_stamps(seen: Observations) -> list[int]:
+def _odometry_stamps(seen: ContractObservations) -> list[int]:
     edge = odometry_edge(seen)
     if edge is None or edge.is_static:
         return []
@@ -284,7 +288,7 @@ def _odometry_stamps(seen: Observations) -> list[int]:
     ]
 
 
-def _too_few(seen: Observations, stamps: list[int]) -> Outcome:
+def _too_few(seen: ContractObservations, stamps: list[int]) -> CheckOutcome:
     edge = odometry_edge(seen)
     if edge is None or edge.is_static:
         return not_checked(f'no moving transform from {seen.frames.odom} to the robot')

@@ -8,19 +8,19 @@ import json
 import math
 
 from amr_description.navigation.contract.findings import (
+    CheckOutcome,
     failed,
     not_checked,
-    Outcome,
     outcome,
     passed,
 )
 from amr_description.navigation.contract.frame_rules import ancestors, parents
 from amr_description.navigation.contract.observations import (
     Body,
+    ContractObservations,
+    ContractTopic,
     GRID_TYPE,
-    Observations,
     POSE_TYPE,
-    Topic,
 )
 from amr_description.navigation.contract.series import names_of
 
@@ -32,7 +32,7 @@ _TOLERANCE = 0.006
 _NO_MAP = 'not there; slam_toolbox or map_server publishes it'
 
 
-def map_published(seen: Observations) -> Outcome:
+def map_published(seen: ContractObservations) -> CheckOutcome:
     """The static layer and AMCL subscribe reliably with transient local durability."""
     topic = seen.map
     if not topic.publishers:
@@ -64,9 +64,9 @@ def map_published(seen: Observations) -> Outcome:
     )
 
 
-def initial_pose(seen: Observations) -> Outcome:
+def initial_pose(seen: ContractObservations) -> CheckOutcome:
     """RViz and the page set where the robot is; AMCL waits for it."""
-    topic: Topic = seen.initial_pose
+    topic: ContractTopic = seen.initial_pose
     if not topic.subscriptions:
         return not_checked('nobody subscribes; amcl or another localisation does')
     wrong = [each for each in topic.subscriptions if each.type_name != POSE_TYPE]
@@ -79,7 +79,7 @@ def initial_pose(seen: Observations) -> Outcome:
     )
 
 
-def map_to_odom(seen: Observations) -> Outcome:
+def map_to_odom(seen: ContractObservations) -> CheckOutcome:
     """Who localises publishes it, and goals on the map need it."""
     names, tree = seen.frames, parents(seen)
     way = list(ancestors(tree, names.odom))
@@ -93,7 +93,7 @@ def map_to_odom(seen: Observations) -> Outcome:
     return passed(' → '.join([*(each.parent for each in reversed(way)), names.odom]))
 
 
-def footprint(seen: Observations) -> Outcome:
+def footprint(seen: ContractObservations) -> CheckOutcome:
     """What a costmap takes for the robot has to hold all that can collide."""
     body = seen.body
     if body is None or body.radius is None:

@@ -21,7 +21,7 @@ STAMPED_TWIST_TYPE = 'geometry_msgs/msg/TwistStamped'
 
 
 @dataclass(frozen=True, slots=True)
-class Endpoint:
+class ContractEndpoint:
     """A publisher or a subscription of another node."""
 
     node: str
@@ -33,13 +33,13 @@ class Endpoint:
 
 
 @dataclass(frozen=True, slots=True)
-class Topic:
+class ContractTopic:
     """Who publishes and who subscribes to a topic."""
 
     name: str
     """Full, after remapping."""
-    publishers: tuple[Endpoint, ...] = ()
-    subscriptions: tuple[Endpoint, ...] = ()
+    publishers: tuple[ContractEndpoint, ...] = ()
+    subscriptions: tuple[ContractEndpoint, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +159,7 @@ class Phase:
 
 
 @dataclass(frozen=True, slots=True)
-class Frames:
+class ContractFrames:
     """The names of the frames that Nav2 and slam_toolbox are configured for."""
 
     map: str = 'map'
@@ -183,17 +183,17 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True)
-class Observations:
+class ContractObservations:
     """All that was seen of a robot."""
 
-    clock: Topic
-    tf: Topic
-    odom: Topic
-    scan: Topic
-    cmd_vel: Topic
-    map: Topic
-    initial_pose: Topic
-    frames: Frames = Frames()
+    clock: ContractTopic
+    tf: ContractTopic
+    odom: ContractTopic
+    scan: ContractTopic
+    cmd_vel: ContractTopic
+    map: ContractTopic
+    initial_pose: ContractTopic
+    frames: ContractFrames = ContractFrames()
     seconds: float = 0.0
     """How long was listened, by the system clock."""
     is_stamped: bool = False
@@ -220,9 +220,9 @@ class Observations:
     """Empty: the robot was not driven."""
     not_driven: str = 'it takes driving: give --drive where there is room'
     """Why not."""
-    elsewhere: Mapping[str, tuple[Topic, ...]] = field(default_factory=dict)
+    elsewhere: Mapping[str, tuple[ContractTopic, ...]] = field(default_factory=dict)
     """Further topics of odometry and of scans: type → topics."""
-    other_command_topics: tuple[Topic, ...] = ()
+    other_command_topics: tuple[ContractTopic, ...] = ()
     """Further topics on which somebody subscribes to velocities."""
 
     @property

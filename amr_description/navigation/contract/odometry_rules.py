@@ -6,14 +6,14 @@ import math
 
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.contract.findings import (
+    CheckOutcome,
     failed,
     not_checked,
-    Outcome,
     outcome,
     passed,
 )
 from amr_description.navigation.contract.observations import (
-    Observations,
+    ContractObservations,
     ODOMETRY_TYPE,
     OdometrySeen,
 )
@@ -31,7 +31,7 @@ _LARGEST_DIFFERENCE = 0.2
 """Of the way by poses, that the way by speeds may differ."""
 
 
-def reliable(seen: Observations) -> Outcome:
+def reliable(seen: ContractObservations) -> CheckOutcome:
     """
     Nav2's ``SystemDefaultsQoS`` is reliable with Cyclone DDS, best effort with Fast DDS.
 
@@ -55,7 +55,7 @@ def reliable(seen: Observations) -> Outcome:
     )
 
 
-def rate(seen: Observations) -> Outcome:
+def rate(seen: ContractObservations) -> CheckOutcome:
     """The controllers of Nav2 take the present speed from it."""
     stamps = [each.stamp for each in seen.odometry]
     if not stamps:
@@ -70,7 +70,7 @@ def rate(seen: Observations) -> Outcome:
     )
 
 
-def frames(seen: Observations) -> Outcome:
+def frames(seen: ContractObservations) -> CheckOutcome:
     """The pose is in the odometry frame, the twist in the one of the robot."""
     if not seen.odometry:
         return _absent(seen)
@@ -89,7 +89,7 @@ def frames(seen: Observations) -> Outcome:
     )
 
 
-def twist(seen: Observations) -> Outcome:
+def twist(seen: ContractObservations) -> CheckOutcome:
     """Of a robot that has turned, the world's axes are not those of its base."""
     if not seen.odometry:
         return _absent(seen)
@@ -108,7 +108,7 @@ def twist(seen: Observations) -> Outcome:
     )
 
 
-def covariances(seen: Observations) -> Outcome:
+def covariances(seen: ContractObservations) -> CheckOutcome:
     """robot_localization takes a variance of 0 for certainty: it replaces it by 1e-9."""
     if not seen.odometry:
         return _absent(seen)
@@ -125,7 +125,7 @@ def covariances(seen: Observations) -> Outcome:
     )
 
 
-def _ways(seen: Observations) -> tuple[float, tuple[float, float], tuple[float, float]]:
+def _ways(seen: ContractObservations) -> tuple[float, tuple[float, float], tuple[float, float]]:
     """Return the length of the way, and how far ahead and to the left, by poses and by twists."""
     way, by_poses, by_speeds = 0.0, [0.0, 0.0], [0.0, 0.0]
     for before, after in zip(seen.odometry, seen.odometry[1:], strict=False):
@@ -146,17 +146,17 @@ def _step(before: OdometrySeen, after: OdometrySeen) -> tuple[float, float]:
     return cos * x + sin * y, cos * y - sin * x
 
 
-def _absent(seen: Observations) -> Outcome:
+def _absent(seen: ContractObservations) -> CheckOutcome:
     """Return that messages are lacking, which is the fault of ``odom.qos`` alone."""
     return not_checked(f'no message came on {seen.odom.name}')
 
 
-def _absence(seen: Observations) -> Outcome:
+def _absence(seen: ContractObservations) -> CheckOutcome:
     others = seen.elsewhere.get(ODOMETRY_TYPE, ())
     return absence_of(seen.odom, ODOMETRY_TYPE, seen.seconds, _WHO, others)
 
 
-def ordered(seen: Observations) -> Outcome:
+def ordered(seen: ContractObservations) -> CheckOutcome:
     """Stamps that repeat give speeds of infinity to whoever divides by their difference."""
     if not seen.odometry:
         return _absent(seen)

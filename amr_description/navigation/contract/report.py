@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import asdict
 import json
 
-from amr_description.navigation.contract.findings import Finding, Verdict
-from amr_description.navigation.contract.observations import Observations
+from amr_description.navigation.contract.findings import CheckVerdict, Finding
+from amr_description.navigation.contract.observations import ContractObservations
 from amr_description.text import one_line
 
-_VERDICT_WIDTH = max(len(verdict) for verdict in Verdict)
+_VERDICT_WIDTH = max(len(verdict) for verdict in CheckVerdict)
 
 
 def as_line(finding: Finding, width: int = 0) -> str:
@@ -22,29 +22,31 @@ def as_line(finding: Finding, width: int = 0) -> str:
         finding: one.
         width: of the column of names.
     """
-    verdict = finding.verdict.upper() if finding.verdict is Verdict.FAILED else finding.verdict
-    text = f'{verdict:{_VERDICT_WIDTH}}  {finding.name:{width}}  {finding.asked}: {finding.found}'
+    verdict = finding.verdict
+    shown = verdict.upper() if verdict is CheckVerdict.FAILED else verdict
+    text = f'{shown:{_VERDICT_WIDTH}}  {finding.name:{width}}  {finding.asked}: {finding.found}'
     return one_line(text + (f'; {finding.advice}' if finding.advice else ''))
 
 
-def as_text(findings: Sequence[Finding], seen: Observations) -> str:
+def as_text(findings: Sequence[Finding], seen: ContractObservations) -> str:
     """Return all findings, a line each, and what they amount to."""
     width = max(len(finding.name) for finding in findings)
     return '\n'.join([*(as_line(finding, width) for finding in findings), summary(findings, seen)])
 
 
-def summary(findings: Sequence[Finding], seen: Observations) -> str:
+def summary(findings: Sequence[Finding], seen: ContractObservations) -> str:
     """Return how many demands hold, in how long that was found, and what never came."""
     counts = Counter(finding.verdict for finding in findings)
     silent = silent_topics(seen)
     never = f'; nothing came on {", ".join(silent)}' if silent else ''
     return (
-        f'{len(findings)} demands in {seen.seconds:.1f} s: {counts[Verdict.PASSED]} passed, '
-        f'{counts[Verdict.FAILED]} failed, {counts[Verdict.NOT_CHECKED]} not checked{never}'
+        f'{len(findings)} demands in {seen.seconds:.1f} s: {counts[CheckVerdict.PASSED]} passed, '
+        f'{counts[CheckVerdict.FAILED]} failed, '
+        f'{counts[CheckVerdict.NOT_CHECKED]} not checked{never}'
     )
 
 
-def silent_topics(seen: Observations) -> list[str]:
+def silent_topics(seen: ContractObservations) -> list[str]:
     """Return the topics on which messages were waited for in vain."""
     heard = (
         (seen.clock.name, seen.ticks or not seen.is_simulated),
@@ -55,13 +57,13 @@ def silent_topics(seen: Observations) -> list[str]:
     return [name for name, messages in heard if not messages]
 
 
-def as_json(findings: Sequence[Finding], seen: Observations) -> str:
+def as_json(findings: Sequence[Finding], seen: ContractObservations) -> str:
     """Return the same for programs."""
     counts = Counter(finding.verdict for finding in findings)
     return json.dumps(
         {
-            'holds': not counts[Verdict.FAILED],
-            'counts': {verdict.value: counts[verdict] for verdict in Verdict},
+            'holds': not counts[CheckVerdict.FAILED],
+            'counts': {verdict.value: counts[verdict] for verdict in CheckVerdict},
             'seconds': round(seen.seconds, 3),
             'silent_topics': silent_topics(seen),
             'findings': [asdict(finding) for finding in findings],

@@ -13,7 +13,7 @@ from amr_description.navigation.contract import (
     time_rules,
 )
 from amr_description.navigation.contract.findings import Finding, Rule
-from amr_description.navigation.contract.observations import Observations
+from amr_description.navigation.contract.observations import ContractObservations
 
 _CLOCK = 'time source of rclcpp, tf2, costmaps'
 _BRINGUP = 'frames of nav2_params.yaml and mapper_params_online_async.yaml'
@@ -96,12 +96,12 @@ RULES = (
 )
 
 
-def examine(seen: Observations, rules: Iterable[Rule] = RULES) -> list[Finding]:
+def examine(seen: ContractObservations, rules: Iterable[Rule] = RULES) -> list[Finding]:
     """Return the finding of each rule."""
     return [_finding(rule, seen) for rule in rules]
 
 
-def _finding(rule: Rule, seen: Observations) -> Finding:
+def _finding(rule: Rule, seen: ContractObservations) -> Finding:
     outcome = rule.check(seen)
     return Finding(
         rule.name, outcome.verdict, rule.asked, outcome.found, outcome.advice, rule.source

@@ -4,13 +4,17 @@
 
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.contract.findings import (
+    CheckOutcome,
     failed,
     not_checked,
-    Outcome,
     outcome,
     passed,
 )
-from amr_description.navigation.contract.observations import Observations, SCAN_TYPE, ScanSeen
+from amr_description.navigation.contract.observations import (
+    ContractObservations,
+    SCAN_TYPE,
+    ScanSeen,
+)
 from amr_description.navigation.contract.scan_length import expected_length, is_full_circle
 from amr_description.navigation.contract.series import (
     absence_of,
@@ -40,7 +44,7 @@ _SYSTEM_CLOCK_LEAD = 10_000_000
 """ns that a stamp of a real robot may be ahead of the clock of the machine that listens."""
 
 
-def published(seen: Observations) -> Outcome:
+def published(seen: ContractObservations) -> CheckOutcome:
     """All subscribe with ``SensorDataQoS``, of best effort, which any publisher of it serves."""
     topic = seen.scan
     others = [each for each in topic.publishers if each.type_name != SCAN_TYPE]
@@ -57,7 +61,7 @@ def published(seen: Observations) -> Outcome:
     return passed(f'{len(seen.scans)} scans of {names_of(topic.publishers)}, {kinds}')
 
 
-def rate(seen: Observations) -> Outcome:
+def rate(seen: ContractObservations) -> CheckOutcome:
     """Fewer are too old when they are used, more cost without being used."""
     if len(seen.scans) < _FEWEST:
         return _absent(seen)
@@ -70,7 +74,7 @@ def rate(seen: Observations) -> Outcome:
     )
 
 
-def length(seen: Observations) -> Outcome:
+def length(seen: ContractObservations) -> CheckOutcome:
     """Karto refuses a scan of another length: ``LaserRangeScan contains … range readings``."""
     if not seen.scans:
         return _absent(seen)
@@ -89,7 +93,7 @@ def length(seen: Observations) -> Outcome:
     return passed(f'{shape.count} ranges from {angles}, {kind}')
 
 
-def ranges(seen: Observations) -> Outcome:
+def ranges(seen: ContractObservations) -> CheckOutcome:
     """REP 117: +inf where nothing is met, -inf where it is too near, NaN where it failed."""
     if not seen.scans:
         return _absent(seen)
@@ -111,7 +115,7 @@ def ranges(seen: Observations) -> Outcome:
     return passed(text + (f', {invalid} NaN' if invalid else ''))
 
 
-def constant(seen: Observations) -> Outcome:
+def constant(seen: ContractObservations) -> CheckOutcome:
     """slam_toolbox reads the geometry of a lidar from its first scan."""
     if not seen.scans:
         return _absent(seen)
@@ -140,7 +144,7 @@ def _change_in(frame: str, scans: list[ScanSeen]) -> str:
     return f"the geometry of '{frame}' has values that are no numbers"
 
 
-def age(seen: Observations) -> Outcome:
+def age(seen: ContractObservations) -> CheckOutcome:
     """A stamp is the time of the measurement, and the scan is used soon after it."""
     if not seen.scans:
         return _absent(seen)
@@ -163,7 +167,7 @@ def age(seen: Observations) -> Outcome:
     )
 
 
-def _ages_of(seen: Observations, scan: ScanSeen) -> tuple[int, int] | None:
+def _ages_of(seen: ContractObservations, scan: ScanSeen) -> tuple[int, int] | None:
     """Return the age of a scan at reception, ns, and at the next tick or within tolerance."""
     if not seen.is_simulated:
         age = scan.received - scan.stamp
@@ -172,7 +176,7 @@ def _ages_of(seen: Observations, scan: ScanSeen) -> tuple[int, int] | None:
     return around and (around[0] - scan.stamp, around[1] - scan.stamp)
 
 
-def in_order(seen: Observations) -> Outcome:
+def in_order(seen: ContractObservations) -> CheckOutcome:
     """Two publishers, or a driver that repeats itself."""
     if len(seen.scans) < _FEWEST:
         return _absent(seen)
@@ -191,7 +195,7 @@ def in_order(seen: Observations) -> Outcome:
     )
 
 
-def reach(seen: Observations) -> Outcome:
+def reach(seen: ContractObservations) -> CheckOutcome:
     """Beyond the reach of the lidar costmaps neither mark nor clear."""
     if not seen.scans:
         return _absent(seen)
@@ -211,7 +215,7 @@ def reach(seen: Observations) -> Outcome:
     return passed(found, note if misses else '')
 
 
-def slam_reach(seen: Observations) -> Outcome:
+def slam_reach(seen: ContractObservations) -> CheckOutcome:
     """slam_toolbox warns of a larger one, and uses that of the scan."""
     if not seen.scans:
         return _absent(seen)
@@ -236,7 +240,7 @@ def slam_reach(seen: Observations) -> Outcome:
     )
 
 
-def _absent(seen: Observations) -> Outcome:
+def _absent(seen: ContractObservations) -> CheckOutcome:
     if seen.scans:
         return failed(
             f'{len(seen.scans)} scans in {seen.seconds:.0f} s', 'set the update_rate to 10'

@@ -8,8 +8,8 @@ from itertools import pairwise
 from statistics import median
 
 from amr_description.clock import NANOSECONDS
-from amr_description.navigation.contract.findings import failed, Outcome
-from amr_description.navigation.contract.observations import Endpoint, Tick, Topic
+from amr_description.navigation.contract.findings import CheckOutcome, failed
+from amr_description.navigation.contract.observations import ContractEndpoint, ContractTopic, Tick
 
 _SHOWN = 4
 
@@ -53,14 +53,18 @@ def seconds(time: int) -> str:
     return f'{time / NANOSECONDS:.3f} s'
 
 
-def names_of(endpoints: Sequence[Endpoint]) -> str:
+def names_of(endpoints: Sequence[ContractEndpoint]) -> str:
     """Return the nodes of endpoints, each once."""
     return ', '.join(dict.fromkeys(each.node for each in endpoints)) or 'nobody'
 
 
 def absence_of(
-    topic: Topic, type_name: str, duration: float, who: str, elsewhere: Sequence[Topic]
-) -> Outcome:
+    topic: ContractTopic,
+    type_name: str,
+    duration: float,
+    who: str,
+    elsewhere: Sequence[ContractTopic],
+) -> CheckOutcome:
     """
     Return the outcome of a demand on messages that did not come, and why they did not.
 

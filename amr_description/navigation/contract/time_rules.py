@@ -6,13 +6,13 @@ from collections.abc import Set
 
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.contract.findings import (
+    CheckOutcome,
     failed,
     not_checked,
-    Outcome,
     outcome,
     passed,
 )
-from amr_description.navigation.contract.observations import Observations
+from amr_description.navigation.contract.observations import ContractObservations
 from amr_description.navigation.contract.series import names_of, seconds, usual_rate
 
 LOWEST_CLOCK_RATE = 100.0
@@ -26,7 +26,7 @@ _SHOWN = 5
 _REAL = 'nobody publishes /clock: a real robot, whose nodes follow the system clock'
 
 
-def one_clock(seen: Observations) -> Outcome:
+def one_clock(seen: ContractObservations) -> CheckOutcome:
     """One node publishes the time; with two, it jumps back and forth."""
     if not seen.is_simulated:
         waiting = _nodes(seen, sim_time=True)
@@ -44,7 +44,7 @@ def one_clock(seen: Observations) -> Outcome:
     )
 
 
-def clock_rate(seen: Observations) -> Outcome:
+def clock_rate(seen: ContractObservations) -> CheckOutcome:
     """Timers, time-outs and rates of nodes with simulated time are as coarse as the clock."""
     if not seen.is_simulated:
         return not_checked(_REAL)
@@ -65,7 +65,7 @@ def clock_rate(seen: Observations) -> Outcome:
     )
 
 
-def clock_order(seen: Observations) -> Outcome:
+def clock_order(seen: ContractObservations) -> CheckOutcome:
     """Where time goes back, tf2 and costmaps drop what they know."""
     if not seen.is_simulated:
         return not_checked(_REAL)
@@ -84,7 +84,7 @@ def clock_order(seen: Observations) -> Outcome:
     return passed(f'{len(times)} messages in order{reset}')
 
 
-def same_time(seen: Observations) -> Outcome:
+def same_time(seen: ContractObservations) -> CheckOutcome:
     """A node on another clock takes every stamp for too old, or for one of the future."""
     if not seen.use_sim_time:
         return not_checked('no node has said its use_sim_time')
@@ -103,7 +103,7 @@ def same_time(seen: Observations) -> Outcome:
     return passed(f'use_sim_time is {value} in all {count} nodes{harmless}{silent}')
 
 
-def real_time_factor(seen: Observations) -> Outcome:
+def real_time_factor(seen: ContractObservations) -> CheckOutcome:
     """In Jazzy loops of Nav2 run on the system clock: at factor 5 they are 5 times too slow."""
     if not seen.is_simulated:
         return not_checked(_REAL)
@@ -122,7 +122,7 @@ def real_time_factor(seen: Observations) -> Outcome:
     )
 
 
-def _unharmed(seen: Observations) -> frozenset[str]:
+def _unharmed(seen: ContractObservations) -> frozenset[str]:
     """
     Return the nodes on the system clock that do well with it where time is simulated.
 
@@ -136,7 +136,7 @@ def _unharmed(seen: Observations) -> frozenset[str]:
     return frozenset(other & follow | other - ends)
 
 
-def _nodes(seen: Observations, *, sim_time: bool, but: Set[str] = frozenset()) -> str:
+def _nodes(seen: ContractObservations, *, sim_time: bool, but: Set[str] = frozenset()) -> str:
     """Return the nodes whose use_sim_time has a value, the first few by name."""
     return _names({name for name, value in seen.use_sim_time.items() if value is sim_time} - but)
 

@@ -33,28 +33,28 @@ from amr_description.navigation.ekf import (
     ACCELERATION,
     ANGLES,
     Array,
-    Control,
+    ControlInput,
     Measurement,
-    Member,
     STATE_SIZE,
+    StateMember,
     TURN_RATE,
 )
 from amr_description.navigation.ekf_diagnostics import complaint_on
 from amr_description.navigation.ekf_estimator import Estimator
 from amr_description.navigation.ekf_measurement import (
     acceleration_values,
-    Channel,
     in_the_plane,
-    Motion,
+    MeasuredValues,
+    MeasurementChannel,
     orientation_values,
     pose_values,
     PoseMemory,
+    RotationalMotion,
     StampedPose,
     twist_values,
-    Values,
     without_gravity,
 )
-from amr_description.navigation.ekf_parameters import Input, Parameters
+from amr_description.navigation.ekf_parameters import EkfInput, EkfParameters
 from amr_description.ros.messages import nanoseconds, vector_of
 
 Lookup: TypeAlias = Callable[[str, str, int], Transform | None]
@@ -79,12 +79,12 @@ class InputReader:
 
     def __init__(
         self,
-        parameters: Parameters,
+        parameters: EkfParameters,
         estimator: Estimator,
         lookup: Lookup,
         complain: Complain = lambda key, text: None,
     ) -> None:
-        self.control: Control | None = None
+        self.control: ControlInput | None = None
         """The latest command, which measurements remember."""
         self._parameters = parameters
         self._estimator = estimator
@@ -103,7 +103,7 @@ class InputReader:
         self._memories.clear()
         self.control = None
 
-    def read(self, entry: Input, message: object) -> None:
+    def read(self, entry: EkfInput, message: object) -> None:
         """Take a message of an input."""
         match message:
             case Odometry():
@@ -117,10 +117,10 @@ class InputReader:
             case Imu():
                 self._imu(entry, message)
 
-    def values_of_pose(self, message: PoseWithCovarianceStamped) -> Values | None:
+    def values_of_pose(self, message: PoseWithCovarianceStamped) -> MeasuredValues | None:
         """Return the pose of a ``set_pose``; None: its frame is not known."""
         used = np.ones(STATE_SIZE, dtype=bool)
-        channel = Channel('set_pose', used)
+        channel = MeasurementChannel('set_pose', used)
         transform = self._transform(
             channel.name,
             self._parameters.world_frame,
@@ -142,13 +142,13 @@ class InputReader:
 
     # --- messages -----------------------------------------------------------------------------
 
-    def _odometry(self, entry: Input, message: Odometry) -> None:
+    def _odometry(self, entry: EkfInput, message: Odometry) -> None:
         header = message.header
         base = message.child_frame_id if entry.uses_child_frame else ''
         self._pose(entry.pose, message.pose, header.frame_id, header.stamp, base)
         self._twist(entry.twist, message.twist, message.child_frame_id, header.stamp)
 
-    def _imu(self, entry: Input, message: Imu) -> None:
+    def _imu(self, entry: EkfInput, message: Imu) -> None:
         """Take its three parts; by the message's definition a covariance of -1 is of none."""
         if entry.pose.is_used and message.orientation_covariance[0] != -1.0:
             self._orientation(entry.pose, message)
@@ -163,7 +163,12 @@ class InputReader:
             self._acceleration(entry, message)
 
     def _pose(
-        self, channel: Channel, message: PoseWithCovariance, frame: str, stamp: Time, base: str
+        self,
+        channel: MeasurementChannel,
+        message: PoseWithCovariance,
+        frame: str,
+        stamp: Time,
+        base: str,
     ) -> None:
         """``base``: the frame whose pose it is; empty: that of the robot."""
         time = nanoseconds(stamp)
@@ -179,7 +184,7 @@ class InputReader:
         )
         if offset is None or transform is None:
             return
-        covariance = self._covariance(channel, message.covariance, Member.X, 6)
+        covariance = self._covariance(channel, message.covariance, StateMember.X, 6)
         rotation = self._rotation(channel, message.pose.orientation)
         stamped = StampedPose(Transform(_position(message.pose), rotation), covariance, time)
         memory = self._memories.setdefault(channel.name, PoseMemory())
@@ -188,7 +193,7 @@ class InputReader:
         )
         self._add(channel, values, time)
 
-    def _orientation(self, channel: Channel, message: Imu) -> None:
+    def _orientation(self, channel: MeasurementChannel, message: Imu) -> None:
         time = nanoseconds(message.header.stamp)
         if not self._is_due(channel, time):
             return
@@ -205,7 +210,7 @@ class InputReader:
         self._add(channel, orientation_values(stamped, channel, memory, transform), time)
 
     def _twist(
-        self, channel: Channel, message: TwistWithCovariance, frame: str, stamp: Time
+        self, channel: MeasurementChannel, message: TwistWithCovariance, frame: str, stamp: Time
     ) -> None:
         time = nanoseconds(stamp)
         if not self._is_due(channel, time):
@@ -216,14 +221,14 @@ class InputReader:
         values = twist_values(
             vector_of(message.twist.linear),
             vector_of(message.twist.angular),
-            self._covariance(channel, message.covariance, Member.VX, 6),
+            self._covariance(channel, message.covariance, StateMember.VX, 6),
             channel.used,
             transform,
             self._estimator.filter.state[TURN_RATE],
         )
         self._add(channel, values, time)
 
-    def _acceleration(self, entry: Input, message: Imu) -> None:
+    def _acceleration(self, entry: EkfInput, message: Imu) -> None:
         channel, time = entry.acceleration, nanoseconds(message.header.stamp)
         if not self._is_due(channel, time):
             return
@@ -238,20 +243,24 @@ class InputReader:
             channel, message.linear_acceleration_covariance, ACCELERATION.start, 3
         )
         estimator = self._estimator
-        motion = Motion(estimator.filter.state[TURN_RATE], estimator.angular_acceleration)
+        motion = RotationalMotion(
+            estimator.filter.state[TURN_RATE], estimator.angular_acceleration
+        )
         values = acceleration_values(acceleration, covariance, channel.used, transform, motion)
         self._add(channel, values, time)
 
     # --- parts of messages --------------------------------------------------------------------
 
-    def _attitude(self, channel: Channel, message: Imu, transform: Transform) -> Quaternion:
+    def _attitude(
+        self, channel: MeasurementChannel, message: Imu, transform: Transform
+    ) -> Quaternion:
         """Return the rotation of an IMU in the world; that of the robot if it measures none."""
         if message.orientation_covariance[0] != -1.0:
             return self._rotation(channel, message.orientation)
         roll, pitch, yaw = (float(angle) for angle in self._estimator.filter.state[ANGLES])
         return multiply(quaternion_from_rpy(roll, pitch, yaw), transform.rotation)
 
-    def _rotation(self, channel: Channel, message: object) -> Quaternion:
+    def _rotation(self, channel: MeasurementChannel, message: object) -> Quaternion:
         """Return a unit quaternion; one of zeros is no rotation, and complained of."""
         x, y, z, w = (float(getattr(message, axis)) for axis in 'xyzw')
         squared = x * x + y * y + z * z + w * w
@@ -272,7 +281,7 @@ class InputReader:
         return normalize((x, y, z, w))
 
     def _covariance(
-        self, channel: Channel, numbers: Sequence[float], offset: int, size: int
+        self, channel: MeasurementChannel, numbers: Sequence[float], offset: int, size: int
     ) -> Array:
         matrix = _matrix(numbers, size)
         complaint = complaint_on(matrix, channel.used, offset)
@@ -280,7 +289,7 @@ class InputReader:
             self._complain(f'{channel.name}_covariance', complaint)
         return matrix
 
-    def _of_sensor(self, channel: Channel, frame: str, time: int) -> Transform | None:
+    def _of_sensor(self, channel: MeasurementChannel, frame: str, time: int) -> Transform | None:
         """Return the pose of a sensor in the robot; one without a frame is in its origin."""
         robot = self._parameters.base_link_frame
         return self._transform(channel.name, robot, frame or robot, time)
@@ -297,7 +306,7 @@ class InputReader:
             )
         return found
 
-    def _is_due(self, channel: Channel, time: int) -> bool:
+    def _is_due(self, channel: MeasurementChannel, time: int) -> bool:
         """Return whether a message is used, and is not older than the last one."""
         if not channel.is_used:
             return False
@@ -320,7 +329,7 @@ class InputReader:
         self._latest[channel.name] = time
         return True
 
-    def _add(self, channel: Channel, values: Values | None, time: int) -> None:
+    def _add(self, channel: MeasurementChannel, values: MeasuredValues | None, time: int) -> None:
         if values is None:
             return
         if self._is_flat:

@@ -37,14 +37,14 @@ from std_srvs.srv import Empty
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
 from amr_description.errors import TransformException
 from amr_description.model.frames import Transform
-from amr_description.navigation.ekf import Control, Measurement, Outcome
+from amr_description.navigation.ekf import ControlInput, Measurement, Outcome
 from amr_description.navigation.ekf_diagnostics import FilterDiagnostics, RateDiagnostics
 from amr_description.navigation.ekf_estimator import Estimator
 from amr_description.navigation.ekf_parameters import (
-    Input,
-    Kind,
+    EkfInput,
+    EkfParameters,
     kinds_of,
-    Parameters,
+    ParameterKind,
     read_parameters,
 )
 from amr_description.navigation.ros.ekf_inputs import InputReader, MESSAGE_TYPES
@@ -110,7 +110,7 @@ class EkfNode(Node):
 
     # --- begin --------------------------------------------------------------------------------
 
-    def _declare(self) -> Parameters:
+    def _declare(self) -> EkfParameters:
         """Declare the parameters, as they are known by what was given. Raises ParameterError."""
         given = {
             name: each.value
@@ -122,7 +122,7 @@ class EkfNode(Node):
             self._declare_one(name, kind, parameters)
         return parameters
 
-    def _declare_one(self, name: str, kind: Kind, parameters: Parameters) -> None:
+    def _declare_one(self, name: str, kind: ParameterKind, parameters: EkfParameters) -> None:
         kind_in_ros = _TYPES[kind.type]
         value = parameters.values.get(name)
         descriptor = ParameterDescriptor(read_only=True)
@@ -177,7 +177,7 @@ class EkfNode(Node):
 
     # --- messages -----------------------------------------------------------------------------
 
-    def _on_message(self, entry: Input, message: object) -> None:
+    def _on_message(self, entry: EkfInput, message: object) -> None:
         header = message.header  # type: ignore[attr-defined]
         if self._is_timer_stuck and self.get_clock().now().nanoseconds > 0:
             self._is_timer_stuck = False
@@ -203,7 +203,7 @@ class EkfNode(Node):
 
     def _follow(self, twist: Twist, time: int) -> None:
         velocity = np.array([*vector_of(twist.linear), *vector_of(twist.angular)])
-        control = Control(velocity, time)
+        control = ControlInput(velocity, time)
         self._reader.control = control
         self._estimator.set_control(control)
 

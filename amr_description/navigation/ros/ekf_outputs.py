@@ -28,9 +28,9 @@ from amr_description.navigation.ekf import (
     TWIST,
     VELOCITY,
 )
-from amr_description.navigation.ekf_diagnostics import Status
+from amr_description.navigation.ekf_diagnostics import EkfStatus
 from amr_description.navigation.ekf_estimator import Estimator
-from amr_description.navigation.ekf_parameters import Parameters
+from amr_description.navigation.ekf_parameters import EkfParameters
 from amr_description.ros.messages import (
     fill_pose,
     fill_stamp,
@@ -47,7 +47,7 @@ class Outputs:
     """The publishers of a filter."""
 
     def __init__(
-        self, node: Node, parameters: Parameters, overriding: QoSOverridingOptions
+        self, node: Node, parameters: EkfParameters, overriding: QoSOverridingOptions
     ) -> None:
         """``overriding``: which QoS parameters there are."""
         self._parameters = parameters
@@ -95,7 +95,7 @@ class Outputs:
             self.transform.sendTransform(message)
 
 
-def odometry_message(each: Ekf, parameters: Parameters) -> Odometry:
+def odometry_message(each: Ekf, parameters: EkfParameters) -> Odometry:
     """Return the pose in the world frame, and the velocity in the robot's axes."""
     message = Odometry()
     fill_stamp(each.time, message.header.stamp)
@@ -113,7 +113,7 @@ def odometry_message(each: Ekf, parameters: Parameters) -> Odometry:
 
 
 def acceleration_message(
-    estimator: Estimator, parameters: Parameters
+    estimator: Estimator, parameters: EkfParameters
 ) -> AccelWithCovarianceStamped:
     """Return the acceleration in the robot's axes: linear as estimated, angular by difference."""
     each = estimator.filter
@@ -132,7 +132,7 @@ def acceleration_message(
     return message
 
 
-def diagnostic_array(name: str, found: Sequence[Status], now: int) -> DiagnosticArray:
+def diagnostic_array(name: str, found: Sequence[EkfStatus], now: int) -> DiagnosticArray:
     """Return statuses as a message; ``name``: of the node; ``now``: ns."""
     message = DiagnosticArray()
     fill_stamp(now, message.header.stamp)

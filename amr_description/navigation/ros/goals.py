@@ -17,11 +17,11 @@ from amr_description.ros.standing_clock import StandingClockNode
 UNKNOWN_ERROR = 200
 
 
-class Goal:
+class NavigationGoal:
     """A goal of a client; one without a client, of a topic, has ``handle`` None."""
 
     def __init__(
-        self, server: 'GoalServer | None', handle: ServerGoalHandle | None, request: Any
+        self, server: 'NavigationGoalServer | None', handle: ServerGoalHandle | None, request: Any
     ) -> None:
         self.server, self.handle, self.request = server, handle, request
 
@@ -53,11 +53,11 @@ class Goal:
             self.server.end(self.handle, event, self.server.type.Result(**fields))
 
 
-class GoalServer:
+class NavigationGoalServer:
     """The server of one action."""
 
     def __init__(
-        self, node: Node, action_type: Any, name: str, begin: Callable[[Goal], object]
+        self, node: Node, action_type: Any, name: str, begin: Callable[[NavigationGoal], object]
     ) -> None:
         """
         Serve.
@@ -102,7 +102,7 @@ class GoalServer:
 
     def _accepted(self, handle: ServerGoalHandle) -> None:
         begin_goal(handle)
-        goal = Goal(self, handle, handle.request)
+        goal = NavigationGoal(self, handle, handle.request)
         try:
             self._begin(goal)
         except Exception as error:  # whatever is in the goal: its client hears of it

@@ -26,7 +26,7 @@ import threading
 from rclpy.node import Node
 
 from amr_description.argument_types import positive
-from amr_description.controllers.drive_calibration import fit, Geometry, Run, yaw_error
+from amr_description.controllers.drive_calibration import CalibrationRun, fit, Geometry, yaw_error
 from amr_description.nodes.calibrate.drive import CalibrationDrive, Manoeuvre
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node
@@ -92,7 +92,7 @@ def manoeuvres(linear: float, angular: float, distance: float) -> tuple[Manoeuvr
     )
 
 
-def report(runs: Sequence[Run], before: Geometry, after: Geometry) -> str:
+def report(runs: Sequence[CalibrationRun], before: Geometry, after: Geometry) -> str:
     """Return the table of errors: of the angle, or for straight runs, of the distance."""
     rows = [('run', 'true', 'before', 'error', 'after', 'error')]
     for run in runs:
@@ -147,7 +147,7 @@ def calibrate(args: list[str] | None) -> int:
 
 def _drive(
     node: Node, controller: str, options: argparse.Namespace, stop: StopRequests
-) -> tuple[list[Run], Geometry]:
+) -> tuple[list[CalibrationRun], Geometry]:
     """Return the runs, and the geometry in the controller's parameters."""
     is_stopping = threading.Event()
 
@@ -156,7 +156,7 @@ def _drive(
             assert stop.signum is not None, 'the event is set by a stop request'
             raise StopRequested(stop.signum)
 
-    runs: list[Run] = []
+    runs: list[CalibrationRun] = []
     with stop.on_stop(is_stopping.set):
         drive = CalibrationDrive(node, controller, options.timeout, raise_if_stopped)
         try:

@@ -20,7 +20,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
-from amr_description.controllers.drive_calibration import Geometry, Path, Run, Travel
+from amr_description.controllers.drive_calibration import CalibrationRun, Geometry, Path, Travel
 from amr_description.errors import CalibrationError
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds, transform_of
@@ -75,7 +75,7 @@ class Manoeuvre:
         return abs(travel.distance) >= self.distance or abs(travel.turn) >= self.turn
 
 
-class Track:
+class DriveTrack:
     """One odometry topic: the latest message, and the path since the last :meth:`restart`."""
 
     def __init__(self) -> None:
@@ -143,7 +143,7 @@ class CalibrationDrive:
         self._command: tuple[float, float] | None = None
         self._namespace, _, self._name = controller.rpartition('/')
         self.geometry = self._read_geometry(controller)
-        self._truth, self._odometry = Track(), Track()
+        self._truth, self._odometry = DriveTrack(), DriveTrack()
         truth_topic = f'{self._namespace}/{ODOM_TOPIC}'
         odometry_topic, command_topic = self._find_topics(truth_topic)
         self._commands = node.create_publisher(TwistStamped, command_topic, 10)
@@ -153,7 +153,7 @@ class CalibrationDrive:
         self._command = 0.0, 0.0  # the controller publishes odometry from the first command on
         self._wait_for_messages(odometry_topic, self._odometry)
 
-    def run(self, manoeuvre: Manoeuvre) -> Run:
+    def run(self, manoeuvre: Manoeuvre) -> CalibrationRun:
         """Drive a manoeuvre, from rest to rest. Raises CalibrationError."""
         self._wait_for_rest()
         self._truth.restart()
@@ -178,7 +178,7 @@ class CalibrationDrive:
                 'program command it?'
             )
         self._wait_for_rest()
-        return Run.from_odometry(
+        return CalibrationRun.from_odometry(
             manoeuvre.name, self._odometry.travel, self._truth.travel, self.geometry
         )
 
@@ -305,7 +305,7 @@ class CalibrationDrive:
             if type_name in types
         }
 
-    def _wait_for_messages(self, topic: str, track: Track) -> None:
+    def _wait_for_messages(self, topic: str, track: DriveTrack) -> None:
         self._wait(
             lambda: track.stamp >= 0,
             f"no message has come on '{topic}' for {self._timeout:g} s: is the simulation paused, "

@@ -61,9 +61,9 @@ from amr_description.errors import AmrError, DescriptionError, ParameterError
 from amr_description.model.urdf import parse
 from amr_description.nodes.robot_state_publisher.robot_state import (
     Arrivals,
+    JointThrottle,
     period_of,
     RobotState,
-    Throttle,
 )
 from amr_description.nodes.robot_state_publisher.transforms import TransformEncoder
 from amr_description.parameters import parameter
@@ -130,7 +130,7 @@ class RobotStatePublisher(PollingNode):
                 '--params-file, or name the URDF file as the argument'
             )
         self._state: RobotState | None = None
-        self._throttle = Throttle()
+        self._throttle = JointThrottle()
         self._arrivals = Arrivals()
         self._lock = threading.Lock()  # of all that joint states and parameters have in common
         self._heads = HeadReader()

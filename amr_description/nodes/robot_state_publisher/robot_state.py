@@ -76,7 +76,7 @@ class RobotState:
         ]
 
 
-class Throttle:
+class JointThrottle:
     """
     Decides which joint states are published: each joint once per period, by message stamps.
 

@@ -36,7 +36,7 @@ from rclpy.utilities import remove_ros_args
 
 from amr_description.errors import AmrError
 from amr_description.nodes.teleop_twist_keyboard.keyboard import Keyboard
-from amr_description.nodes.teleop_twist_keyboard.keys import HELP, Hold, Teleop
+from amr_description.nodes.teleop_twist_keyboard.keys import HELP, KeyHold, Teleop
 from amr_description.nodes.teleop_twist_keyboard.node import TeleopTwistKeyboard
 from amr_description.ros.runtime import argument_errors, program, ros, spinning
 from amr_description.terminal import CTRL_C, CTRL_Z, KeyEvent
@@ -53,7 +53,7 @@ class KeyboardDriver:
         self._node, self._keyboard = node, keyboard
         self._teleop = Teleop(settings.speed, settings.turn)
         period = 1.0 / settings.repeat_rate if settings.repeat_rate else 0.0
-        self._hold = Hold(period, settings.key_timeout)
+        self._hold = KeyHold(period, settings.key_timeout)
 
     def drive(self) -> None:
         """Publish commands until Ctrl-C."""

@@ -134,7 +134,7 @@ class Teleop:
         return Velocity(x * self.speed, y * self.speed, z * self.speed, yaw * self.turn)
 
 
-class Hold:
+class KeyHold:
     """
     Decides when to repeat a command, and when its key has been released.
 

@@ -34,7 +34,7 @@ _LARGEST_SIDE = 14400.0  # points; the limit of a PDF page
 
 
 @dataclass(frozen=True)
-class Text:
+class DrawnText:
     """A line of text, centred on ``x``, with its base line at ``y``."""
 
     x: float
@@ -44,7 +44,7 @@ class Text:
 
 
 @dataclass(frozen=True)
-class Box:
+class DrawnBox:
     """A rectangle; ``x`` and ``y`` are its upper left corner."""
 
     x: float
@@ -63,7 +63,7 @@ class Line:
     y2: float
 
 
-Shape: TypeAlias = Text | Box | Line
+Shape: TypeAlias = DrawnText | DrawnBox | Line
 
 
 @dataclass(frozen=True)
@@ -88,12 +88,14 @@ class _PlacedFrame:
 
 def draw(records: Sequence[FrameRecord], recorded: int) -> Drawing:
     """Draw all trees side by side; ``recorded`` is the time of the records, ns."""
-    title = Text(0.0, _MARGIN + FACT_SIZE, FACT_SIZE, f'Recorded at time: {seconds(recorded)}')
+    title = DrawnText(
+        0.0, _MARGIN + FACT_SIZE, FACT_SIZE, f'Recorded at time: {seconds(recorded)}'
+    )
     frames, right = _layout(records)
     if not frames:
         frames, right = [_PlacedFrame('', _NOTHING, None, 0, _MARGIN + 100.0)], _MARGIN + 200.0
     right = max(right, _MARGIN + _width(title.text, FACT_SIZE))
-    title = Text((right + _MARGIN) / 2.0, title.y, title.size, title.text)
+    title = DrawnText((right + _MARGIN) / 2.0, title.y, title.size, title.text)
     level = _BOX_HEIGHT + 2.0 * _GAP + _height_of_facts(records)
     top = title.y + 2.0 * _GAP
     by_name = {frame.name: frame for frame in frames}
@@ -137,8 +139,8 @@ def _layout(records: Sequence[FrameRecord]) -> tuple[list[_PlacedFrame], float]:
 def _frame(frame: _PlacedFrame, y: float) -> Iterator[Shape]:
     """Yield the box with the name; its top is at ``y``."""
     width = _width(frame.label, NAME_SIZE) + _GAP
-    yield Box(frame.x - width / 2.0, y, width, _BOX_HEIGHT)
-    yield Text(frame.x, y + _BOX_HEIGHT / 2.0 + 0.35 * NAME_SIZE, NAME_SIZE, frame.label)
+    yield DrawnBox(frame.x - width / 2.0, y, width, _BOX_HEIGHT)
+    yield DrawnText(frame.x, y + _BOX_HEIGHT / 2.0 + 0.35 * NAME_SIZE, NAME_SIZE, frame.label)
 
 
 def _connection(parent_x: float, frame: _PlacedFrame, y: float, level: float) -> Iterator[Shape]:
@@ -152,7 +154,7 @@ def _connection(parent_x: float, frame: _PlacedFrame, y: float, level: float) ->
     yield Line(frame.x, bend, frame.x, y - _GAP / 2.0 - height)
     for number, line in enumerate(lines):
         base = y - _GAP / 2.0 - height + (number + 0.8) * FACT_SIZE * _LINE_HEIGHT
-        yield Text(frame.x, base, FACT_SIZE, line)
+        yield DrawnText(frame.x, base, FACT_SIZE, line)
     yield Line(frame.x, y - _GAP / 2.0, frame.x, y)
 
 
@@ -175,9 +177,9 @@ def as_svg(drawing: Drawing) -> str:
             'font-family="monospace" text-anchor="middle">',
             '<rect width="100%" height="100%" fill="white"/>',
             '<g fill="none" stroke="black">',
-            *(_svg_stroke(shape) for shape in drawing.shapes if not isinstance(shape, Text)),
+            *(_svg_stroke(shape) for shape in drawing.shapes if not isinstance(shape, DrawnText)),
             '</g>',
-            *(_svg_text(shape) for shape in drawing.shapes if isinstance(shape, Text)),
+            *(_svg_text(shape) for shape in drawing.shapes if isinstance(shape, DrawnText)),
             '</svg>\n',
         ]
     )
@@ -202,8 +204,8 @@ def as_pdf(drawing: Drawing) -> bytes:
     )
 
 
-def _svg_stroke(shape: Box | Line) -> str:
-    if isinstance(shape, Box):
+def _svg_stroke(shape: DrawnBox | Line) -> str:
+    if isinstance(shape, DrawnBox):
         return (
             f'<rect x="{shape.x:.1f}" y="{shape.y:.1f}" width="{shape.width:.1f}" '
             f'height="{shape.height:.1f}" rx="6"/>'
@@ -211,7 +213,7 @@ def _svg_stroke(shape: Box | Line) -> str:
     return f'<path d="M{shape.x1:.1f} {shape.y1:.1f}L{shape.x2:.1f} {shape.y2:.1f}"/>'
 
 
-def _svg_text(text: Text) -> str:
+def _svg_text(text: DrawnText) -> str:
     # textLength: the text is as wide as in the layout, whatever monospaced font is used.
     width = len(text.text) * text.size * LETTER_WIDTH
     return (
@@ -222,7 +224,7 @@ def _svg_text(text: Text) -> str:
 
 def _pdf(shape: Shape, height: float) -> Iterator[str]:
     """Yield the operators that draw a shape; in a PDF, y goes up."""
-    if isinstance(shape, Box):
+    if isinstance(shape, DrawnBox):
         bottom = height - shape.y - shape.height
         yield f'{shape.x:.1f} {bottom:.1f} {shape.width:.1f} {shape.height:.1f} re S'
     elif isinstance(shape, Line):

@@ -24,7 +24,7 @@ from amr_description.control.contracts import Log, Severity
 from amr_description.errors import RenderingError
 from amr_description.sim.cameras.gl_renderer import GlRenderer
 from amr_description.sim.cameras.ray_renderer import RayRenderer
-from amr_description.sim.cameras.renderer import Picture, Renderer, Shot
+from amr_description.sim.cameras.renderer import RenderedPicture, Renderer, Shot
 
 
 class ChosenRenderer(Renderer):
@@ -53,7 +53,7 @@ class ChosenRenderer(Renderer):
         """That of the renderer."""
         return self._choice if self._renderer is None else self._renderer.name
 
-    def render(self, shot: Shot) -> Picture:
+    def render(self, shot: Shot) -> RenderedPicture:
         """Make one picture; by rays from now on, if OpenGL fails."""
         if self._renderer is None:
             self._renderer = self._make()

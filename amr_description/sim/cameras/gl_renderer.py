@@ -19,7 +19,7 @@ from amr_description.model.frames import matrix_from_quaternion
 from amr_description.model.sensors import Camera, Intrinsics
 from amr_description.sim.cameras.gl_context import create_context, GlContext
 from amr_description.sim.cameras.lens import intrinsics_of, pixel_directions
-from amr_description.sim.cameras.renderer import BACKGROUND, Picture, Renderer, Shot
+from amr_description.sim.cameras.renderer import BACKGROUND, RenderedPicture, Renderer, Shot
 from amr_description.sim.rays import RayScene
 from amr_description.sim.state_copy import CopiedPoses
 
@@ -78,7 +78,7 @@ class GlRenderer(Renderer):
         self._model: mujoco.MjModel | None = None
         self._mjr: mujoco.MjrContext | None = None
 
-    def render(self, shot: Shot) -> Picture:
+    def render(self, shot: Shot) -> RenderedPicture:
         """Make one picture. Raises RenderingError."""
         view = self._view_of(shot.camera)
         data = self._poses.data(shot.state)
@@ -96,7 +96,7 @@ class GlRenderer(Renderer):
                 depth[depth >= ends[1]] = np.inf
         except mujoco.FatalError as error:
             raise RenderingError(f'OpenGL fails: {error}') from error
-        return Picture(
+        return RenderedPicture(
             None if color is None else _through_lens(color, view, 0),
             _through_lens(depth, view, np.nan) if shot.with_depth and depth is not None else None,
         )

@@ -7,7 +7,7 @@ import numpy as np
 from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.lens import pixel_directions
-from amr_description.sim.cameras.renderer import Picture
+from amr_description.sim.cameras.renderer import RenderedPicture
 
 _LUMA = np.array([299, 587, 114], np.uint32)
 """Thousandths of red, green and blue in a grey, as ITU-R BT.601 says."""
@@ -17,7 +17,9 @@ _COLOR_COLUMN = 4
 """Of a point with a colour, in numbers of 32 bits."""
 
 
-def with_noise(picture: Picture, noise: Noise, generator: np.random.Generator) -> Picture:
+def with_noise(
+    picture: RenderedPicture, noise: Noise, generator: np.random.Generator
+) -> RenderedPicture:
     """
     Return a picture with Gaussian noise: one number for each pixel, as Gazebo adds it.
 
@@ -35,7 +37,7 @@ def with_noise(picture: Picture, noise: Noise, generator: np.random.Generator) -
         color = np.clip(values, 0.0, 255.0, out=values).astype(np.uint8)
     elif depth is not None:
         depth = depth + _normal(generator, depth.shape, noise)
-    return Picture(color, depth)
+    return RenderedPicture(color, depth)
 
 
 def encoded(color: np.ndarray, encoding: str) -> np.ndarray:

@@ -45,7 +45,7 @@ class Eye:
 
 
 @dataclass(slots=True)
-class _Seen:
+class _SeenShape:
     """A surface that is seen in an area."""
 
     geom: int
@@ -67,7 +67,7 @@ class Ends:
 
     depth: np.ndarray
     number: np.ndarray
-    seen: list[_Seen] = field(default_factory=list)
+    seen: list[_SeenShape] = field(default_factory=list)
 
     def geoms(self) -> np.ndarray:
         """Return the ids of geoms, (height, width); -1: none."""
@@ -169,7 +169,7 @@ class RayCaster:
                 part = screen.area_of((own - sight.origin) @ sight.turn)
             if part is not None:
                 depth = surface.depths(screen, part, sight)
-                self._merge(ends, eye, depth, _Seen(geom, surface, part))
+                self._merge(ends, eye, depth, _SeenShape(geom, surface, part))
 
     def _add_other(
         self, ends: Ends, screen: Screen, eye: Eye, geom: int, corners: np.ndarray | None
@@ -199,9 +199,9 @@ class RayCaster:
         depth[rows, columns] = np.where(is_behind | is_blind, -1.0, hits.distances)
         normals = np.zeros(rays.shape, np.float32)
         normals[rows, columns] = hits.normals
-        self._merge(ends, eye, depth, _Seen(geom, None, area, normals))
+        self._merge(ends, eye, depth, _SeenShape(geom, None, area, normals))
 
-    def _merge(self, ends: Ends, eye: Eye, depth: np.ndarray, seen: _Seen) -> None:
+    def _merge(self, ends: Ends, eye: Eye, depth: np.ndarray, seen: _SeenShape) -> None:
         """Let rays end at a surface that is nearer."""
         nearest = ends.depth[seen.area]
         is_nearer = depth < nearest

@@ -17,9 +17,9 @@ import numpy as np
 from amr_description.model.frames import matrix_from_quaternion
 from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.ray_caster import Ends, Eye, RayCaster
-from amr_description.sim.cameras.renderer import BACKGROUND, Picture, Renderer, Shot
+from amr_description.sim.cameras.renderer import BACKGROUND, RenderedPicture, Renderer, Shot
 from amr_description.sim.cameras.screen import Screen
-from amr_description.sim.cameras.shading import Shading, Surface
+from amr_description.sim.cameras.shading import HitSurfaces, Shading
 from amr_description.sim.state_copy import CopiedScenes
 
 _DIRECTIONAL = int(mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
@@ -110,7 +110,7 @@ class RayRenderer(Renderer):
         self._bound: mujoco.MjModel | None = None
         self._screens: dict[Camera, Screen] = {}
 
-    def render(self, shot: Shot) -> Picture:
+    def render(self, shot: Shot) -> RenderedPicture:
         """Make one picture."""
         state, camera = shot.state, shot.camera
         self._scene = self._scenes.scene(state)
@@ -131,7 +131,7 @@ class RayRenderer(Renderer):
         )
         with np.errstate(all='ignore'):  # of rays that end nowhere
             ends = self._caster.cast(screen, eye)
-            return Picture(
+            return RenderedPicture(
                 self._colors(ends, screen, eye, camera.far) if shot.with_color else None,
                 _depth_of(ends, screen, camera) if shot.with_depth else None,
             )
@@ -147,7 +147,7 @@ class RayRenderer(Renderer):
         normals = ends.normals(self._scene, points)
         which = np.flatnonzero(is_hit)
         depth = ends.depth.ravel()[which]
-        surface = Surface(
+        surface = HitSurfaces(
             ends.geoms().ravel()[which],
             normals.reshape(-1, 3)[which],
             points.reshape(-1, 3)[which],
@@ -166,7 +166,7 @@ class RayRenderer(Renderer):
             pixels[screen.is_blind.ravel()] = 0
         return pixels.reshape(*screen.shape, 3)
 
-    def _shadows(self, surface: Surface) -> tuple[int, np.ndarray] | None:
+    def _shadows(self, surface: HitSurfaces) -> tuple[int, np.ndarray] | None:
         """Return a light, and the indices of surfaces that it does not reach."""
         light = self._shadow_light
         if light < 0:

@@ -30,7 +30,7 @@ class Shot:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class RenderedPicture:
     """
     What a camera sees.
 
@@ -53,7 +53,7 @@ class Renderer(ABC):
         """``rays`` or ``gl``."""
 
     @abstractmethod
-    def render(self, shot: Shot) -> Picture:
+    def render(self, shot: Shot) -> RenderedPicture:
         """Make one picture. Raises RenderingError: this renderer cannot."""
 
     def close(self) -> None:

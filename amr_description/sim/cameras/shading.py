@@ -23,7 +23,7 @@ _NOWHERE = np.zeros(0, np.intp)
 
 
 @dataclass(frozen=True, slots=True)
-class Surface:
+class HitSurfaces:
     """
     The surfaces that rays have met.
 
@@ -60,7 +60,7 @@ class Shading:
     def colors(
         self,
         data: mujoco.MjData,
-        surface: Surface,
+        surface: HitSurfaces,
         forward: np.ndarray,
         shadows: tuple[int, np.ndarray] | None = None,
     ) -> np.ndarray:
@@ -89,7 +89,7 @@ class Shading:
     def _light(
         self,
         data: mujoco.MjData,
-        surface: Surface,
+        surface: HitSurfaces,
         forward: np.ndarray,
         shadows: tuple[int, np.ndarray],
     ) -> np.ndarray:
@@ -127,7 +127,7 @@ class Shading:
         return total
 
     def _from_a_place(
-        self, data: mujoco.MjData, surface: Surface, light: int, unlit: np.ndarray
+        self, data: mujoco.MjData, surface: HitSurfaces, light: int, unlit: np.ndarray
     ) -> np.ndarray:
         """Return what a light at a place gives, (n, 3)."""
         model = self._model

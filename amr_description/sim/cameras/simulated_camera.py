@@ -8,7 +8,7 @@ import numpy as np
 
 from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.pictures import PointMaker, with_noise
-from amr_description.sim.cameras.renderer import Picture, Renderer, Shot
+from amr_description.sim.cameras.renderer import RenderedPicture, Renderer, Shot
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.sensor_schedule import noise_generator
 from amr_description.sim.state_copy import StateCopier
@@ -46,7 +46,7 @@ class SimulatedCamera:
             with_depth=with_depth,
         )
 
-    def picture(self, renderer: Renderer, time: int, shot: Shot) -> Picture:
+    def picture(self, renderer: Renderer, time: int, shot: Shot) -> RenderedPicture:
         """
         Make a picture, with its noise.
 
@@ -63,9 +63,9 @@ class SimulatedCamera:
             return picture
         # The depth of a camera with colours has none.
         colored = with_noise(replace(picture, depth=None), camera.noise, generator)
-        return Picture(colored.color, picture.depth)
+        return RenderedPicture(colored.color, picture.depth)
 
-    def points(self, picture: Picture) -> np.ndarray:
+    def points(self, picture: RenderedPicture) -> np.ndarray:
         """Return the points of a picture with depth; see :meth:`PointMaker.points`."""
         if self._points is None:
             self._points = PointMaker(self.camera, with_color=bool(self.camera.image_topic))

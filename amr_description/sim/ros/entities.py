@@ -18,7 +18,7 @@ from amr_description.control.contracts import Log
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.ros.controller_manager_node import (
     ControllerManagerNode,
-    PreparedManager,
+    PreparedManagerNode,
     RunningManager,
 )
 from amr_description.control.ros.loop_thread import LoopContext
@@ -66,7 +66,7 @@ class Entity:
     """None: its URDF has no ``<ros2_control>`` block."""
     thread: ExecutorThread | None
     """Runs the callbacks of the manager, its components and controllers."""
-    origin: Spawned[PreparedManager] | None = None
+    origin: Spawned[PreparedManagerNode] | None = None
     """With what it was spawned."""
 
 
@@ -140,7 +140,7 @@ class EntityManager:
 
         See :meth:`~amr_description.simulation.engine.SimulationEngine.spawn`.
         """
-        spawned: Spawned[PreparedManager] = await self._engine.spawn(
+        spawned: Spawned[PreparedManagerNode] = await self._engine.spawn(
             self, name, robot, pose, namespace, allow_renaming=allow_renaming
         )
         given, translation = spawned.name, spawned.translation
@@ -198,7 +198,7 @@ class EntityManager:
             _destroy(entity)
 
     def _serve(
-        self, prepared: PreparedManager, manager: ControllerManager, name: str
+        self, prepared: PreparedManagerNode, manager: ControllerManager, name: str
     ) -> tuple[RunningManager, ExecutorThread]:
         """Create the services of a robot's manager, and the thread that runs their callbacks."""
         thread = ExecutorThread(name, self._loop_thread.fail)
@@ -209,7 +209,7 @@ class EntityManager:
         thread.start()
         return running, thread
 
-    def prepare(self, arrival: Arrival) -> PreparedManager:
+    def prepare(self, arrival: Arrival) -> PreparedManagerNode:
         """Make the nodes of a robot's manager and of its components. Raises ParameterError."""
         with argument_errors():
             node = ControllerManagerNode(

@@ -15,7 +15,7 @@ from amr_description.ros.message_types import type_name
 from amr_description.simulation import run_recorder
 
 
-class RunRecorder(run_recorder.RunRecorder):
+class RosRunRecorder(run_recorder.RunRecorder):
     """See the base class; made and closed on the ROS thread."""
 
     def forget(self, publisher: Publisher) -> None:

@@ -23,13 +23,13 @@ from amr_description.text import shorten
 from amr_description.trusted_files import distrust_new
 
 if TYPE_CHECKING:  # its libraries are for who records
-    from amr_description.sim.ros.run_recorder import RunRecorder
+    from amr_description.sim.ros.run_recorder import RosRunRecorder
     from amr_description.simulation.run_recorder import RunOptions
 
 _PLACE = 'record_below'
 
 
-class RunRecording(run_recording.RunRecording):
+class RosRunRecording(run_recording.RunRecording):
     """See the module."""
 
     def __init__(self, node: Node, publisher: RecordedPublisher, **options: Any) -> None:
@@ -47,10 +47,10 @@ class RunRecording(run_recording.RunRecording):
         # Who sets the parameter is told whether the recording has begun, or is complete.
         node.add_on_set_parameters_callback(self._on_parameters)
 
-    def _new(self, folder: Path, options: 'RunOptions') -> 'RunRecorder':
-        from amr_description.sim.ros.run_recorder import RunRecorder
+    def _new(self, folder: Path, options: 'RunOptions') -> 'RosRunRecorder':
+        from amr_description.sim.ros.run_recorder import RosRunRecorder
 
-        return RunRecorder(folder, options, **self._of_recorder())
+        return RosRunRecorder(folder, options, **self._of_recorder())
 
     def _filter(self, name: str, given: Mapping[str, Any]) -> str:
         return str(given[name] if name in given else self._node.get_parameter(name).value)

@@ -35,7 +35,7 @@ from amr_description.ros.parameters import add_validation_callback, values
 from amr_description.ros.runtime import end_wait
 from amr_description.sim.ros.entities import EntityManager
 from amr_description.sim.ros.loop_timing import LoopProfiler
-from amr_description.sim.ros.run_recording import on_loop, RunRecording
+from amr_description.sim.ros.run_recording import on_loop, RosRunRecording
 from amr_description.sim.ros.spawned_topics import SpawnedTopics
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.engine import SimulationEngine
@@ -148,8 +148,8 @@ class Simulation:
         sensors.on_first = self._serve_measurements
         return sensors
 
-    def _recording(self, calls: CallQueue) -> RunRecording:
-        recording = RunRecording(
+    def _recording(self, calls: CallQueue) -> RosRunRecording:
+        recording = RosRunRecording(
             self._node,
             self.publisher,
             on_loop=on_loop(calls.put, lambda: self.loop_thread.is_alive),

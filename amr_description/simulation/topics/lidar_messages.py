@@ -17,14 +17,14 @@ from amr_description.clock import NANOSECONDS
 from amr_description.messages.definitions import layout_of
 from amr_description.messages.plain import message_like, PlainMessage
 from amr_description.model.sensors import Lidar
-from amr_description.sim.lidar import cloud_rays, met_ranges, Scan, scan_angles
+from amr_description.sim.lidar import cloud_rays, LidarScan, met_ranges, scan_angles
 
 SCAN, CLOUD, RANGE = (f'sensor_msgs/msg/{name}' for name in ('LaserScan', 'PointCloud2', 'Range'))
 POINT_FIELD = 'sensor_msgs/msg/PointField'
 UINT16, FLOAT32 = 4, 7
 """Values of its ``datatype``."""
 
-ScanEncoder: TypeAlias = Callable[[Scan], bytes]
+ScanEncoder: TypeAlias = Callable[[LidarScan], bytes]
 
 POINT = np.dtype(
     {
@@ -58,7 +58,7 @@ def scan_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     pack = template.pack
     begin, geometry, size, end = template.constants
 
-    def encode(scan: Scan) -> bytes:
+    def encode(scan: LidarScan) -> bytes:
         ring = scan.middle_ring
         ranges, intensities = scan.ranges[ring].tobytes(), scan.intensities[ring].tobytes()
         stamp = divmod(scan.time, NANOSECONDS)
@@ -94,7 +94,7 @@ def points_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     pack = template.pack
     begin, layout, density, end = template.constants
 
-    def encode(scan: Scan) -> bytes:
+    def encode(scan: LidarScan) -> bytes:
         ranges = met_ranges(scan)
         for axis, name in enumerate('xyz'):
             np.multiply(ranges, rays[:, :, axis], out=points[name])
@@ -129,7 +129,7 @@ def range_encoder(lidar: Lidar, frame: str) -> ScanEncoder:
     pack = template.pack
     begin, geometry, end = template.constants
 
-    def encode(scan: Scan) -> bytes:
+    def encode(scan: LidarScan) -> bytes:
         stamp = divmod(scan.time, NANOSECONDS)
         return pack(begin, *stamp, geometry, float(scan.ranges.min()), end)
 

@@ -17,7 +17,7 @@ import threading
 import time
 
 from amr_description.errors import AmrError
-from amr_description.testing.trial.findings import Findings, from_json, table, to_json
+from amr_description.testing.trial.findings import from_json, table, to_json, TrialFindings
 from amr_description.testing.trial.inputs import descriptions, prefixes, robot_names
 from amr_description.testing.trial.one_robot import Job
 from amr_description.text import one_line
@@ -27,7 +27,7 @@ _STOP_TIMEOUT = 25.0
 """s from SIGINT to SIGKILL: a simulator may take 15 of them."""
 
 
-def try_robot(job: Job, timeout: float, running: set[subprocess.Popen[bytes]]) -> Findings:
+def try_robot(job: Job, timeout: float, running: set[subprocess.Popen[bytes]]) -> TrialFindings:
     """
     Try a robot; end its process after ``timeout`` s of the wall clock.
 
@@ -51,7 +51,7 @@ def try_robot(job: Job, timeout: float, running: set[subprocess.Popen[bytes]]) -
             is_late, cpu_seconds = _wait(process, timeout)
         finally:
             running.discard(process)
-        found = Findings(job.robot, job.file)
+        found = TrialFindings(job.robot, job.file)
         if result.is_file():
             found = from_json(result.read_text(encoding='utf-8'))
         found.seconds, found.cpu_seconds = time.monotonic() - begin, cpu_seconds
@@ -120,11 +120,11 @@ def main(arguments: Sequence[str]) -> int:
     return 0 if all(each.is_fine for each in found) else 1
 
 
-def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[Findings]:
+def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[TrialFindings]:
     """Try robots, ``count`` of them side by side; say on stderr how far it is."""
     running: set[subprocess.Popen[bytes]] = set()
 
-    def one(job: Job) -> Findings:
+    def one(job: Job) -> TrialFindings:
         found = try_robot(job, timeout, running)
         word = 'fine' if found.is_fine else found.faults[0]
         print(f'{job.robot}: {word} ({found.seconds:.0f} s)', file=sys.stderr, flush=True)

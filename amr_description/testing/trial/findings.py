@@ -72,7 +72,7 @@ class MotionResult:
 
 
 @dataclass
-class Findings:
+class TrialFindings:
     """Everything about one robot."""
 
     robot: str
@@ -107,12 +107,12 @@ class Findings:
         return not self.faults
 
 
-def to_json(findings: Sequence[Findings]) -> str:
+def to_json(findings: Sequence[TrialFindings]) -> str:
     """Return everything as JSON, numbers that it does not have as null."""
     return json.dumps([_finite(asdict(each)) for each in findings], indent=1, ensure_ascii=False)
 
 
-def from_json(text: str) -> Findings:
+def from_json(text: str) -> TrialFindings:
     """Return what :func:`to_json` has written of one robot."""
     values = json.loads(text)[0]
     rest = values['rest']
@@ -121,7 +121,7 @@ def from_json(text: str) -> Findings:
         values['rest'] = RestResult(**{k: math.inf if v is None else v for k, v in rest.items()})
     values['controllers'] = [ControllerFinding(**each) for each in values['controllers']]
     values['motions'] = [MotionResult(**each) for each in values['motions']]
-    return Findings(**values)
+    return TrialFindings(**values)
 
 
 def _finite(value: Any) -> Any:
@@ -132,7 +132,7 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def row(found: Findings) -> tuple[str, ...]:
+def row(found: TrialFindings) -> tuple[str, ...]:
     """Return the cells of a robot, in the order of :data:`HEADINGS`."""
     check = found.check
     active = sum(each.state == 'active' for each in found.controllers)
@@ -162,7 +162,7 @@ def _motion(motion: MotionResult) -> str:
     return f'{sign}{motion.what} {100.0 * motion.truth / motion.asked:.0f}%'
 
 
-def table(findings: Sequence[Findings], *, details: bool = True) -> str:
+def table(findings: Sequence[TrialFindings], *, details: bool = True) -> str:
     """Return the table; with ``details``, faults and the first warnings below each robot."""
     rows = [HEADINGS, *map(row, findings)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]

@@ -42,7 +42,7 @@ _POSITION = re.compile(r'<command_interface\s+name="position"')
 
 
 @dataclass(frozen=True)
-class Parameters:
+class TrialParameters:
     """Parameter files of a robot."""
 
     files: tuple[Path, ...]
@@ -116,7 +116,7 @@ def replaced_copy(file: Path, folder: Path, replacements: Mapping[str, str]) -> 
 
 def parameters_of(
     file: Path, text: str, robot: str, folder: Path, given: Sequence[str] = ()
-) -> Parameters:
+) -> TrialParameters:
     """
     Return the parameter files of a robot.
 
@@ -131,25 +131,25 @@ def parameters_of(
         UsageError: a file that is given is not there.
     """
     if files := _given(robot, given):
-        return Parameters(files, 'the command line')
+        return TrialParameters(files, 'the command line')
     own = file.with_name(f'{Path(robot).name}.yaml')
     if own.is_file():
-        return Parameters((own.absolute(),), 'the name of the description')
+        return TrialParameters((own.absolute(),), 'the name of the description')
     if named := dict.fromkeys(_PARAMETERS.findall(text)):
         paths = (parameter_path(each.strip(), file.parent) for each in named)
-        return Parameters(tuple(paths), DESCRIPTION)
+        return TrialParameters(tuple(paths), DESCRIPTION)
     for package in _packages(text):
         listing = [
             each for each in sorted((package / 'config').glob('*.yaml')) if lists_controllers(each)
         ]
         if len(listing) == 1:
-            return Parameters((listing[0],), f'package {package.name}')
+            return TrialParameters((listing[0],), f'package {package.name}')
     joints = position_joints(text)
     if not _BLOCK.search(text):
-        return Parameters((), 'nothing')
+        return TrialParameters((), 'nothing')
     path = folder / 'controllers.yaml'
     path.write_text(_own_parameters(joints), encoding='utf-8')
-    return Parameters((path,), 'this program')
+    return TrialParameters((path,), 'this program')
 
 
 def _given(robot: str, given: Sequence[str]) -> tuple[Path, ...]:

@@ -32,17 +32,17 @@ from amr_description.testing.trial.bring_up import Active, BringUp, find_manager
 from amr_description.testing.trial.driving import DriveTrial, TOLERANCE
 from amr_description.testing.trial.findings import (
     Check,
-    Findings,
     from_json,
     MotionResult,
     RestResult,
     to_json,
+    TrialFindings,
 )
 from amr_description.testing.trial.inputs import (
-    Parameters,
     parameters_of,
     replaced_copy,
     self_typed,
+    TrialParameters,
 )
 from amr_description.testing.trial.moving import is_moved, JointStates, Mover
 from amr_description.text import one_line
@@ -83,11 +83,11 @@ class Job:
 class Trial:
     """One robot on its way through the stages."""
 
-    def __init__(self, job: Job, keep: Callable[[Findings], None]) -> None:
+    def __init__(self, job: Job, keep: Callable[[TrialFindings], None]) -> None:
         """``keep`` is called with the findings at every stage."""
         self._job = job
         self._keep = keep
-        self.found = Findings(job.robot, job.file)
+        self.found = TrialFindings(job.robot, job.file)
         self._publishers: set[str] = set()  # active, without a command interface
 
     def run(self) -> None:
@@ -153,7 +153,7 @@ class Trial:
 
     # --- the simulation ------------------------------------------------------------------------
 
-    def _simulate(self, file: Path, given: Parameters, text: str) -> None:
+    def _simulate(self, file: Path, given: TrialParameters, text: str) -> None:
         self._enter('spawn')
         begin = time.monotonic()
         sim = Simulation(file.absolute(), given.told, activate=[])
@@ -346,7 +346,7 @@ def explanations(motion: MotionResult, logged_lines: Sequence[str]) -> list[str]
     ]
 
 
-def without_path(found: Findings, path: str) -> Findings:
+def without_path(found: TrialFindings, path: str) -> TrialFindings:
     """Return findings whose texts do not name a folder that is gone with the trial."""
     return from_json(to_json([found]).replace(path, ''))
 
@@ -375,7 +375,7 @@ def main(arguments: Sequence[str]) -> int:
     pairs = tuple((old, new) for old, new in fields.pop('replacements'))
     job = Job(**fields | {'controllers': tuple(fields['controllers'])}, replacements=pairs)
 
-    def keep(found: Findings) -> None:
+    def keep(found: TrialFindings) -> None:
         part = result.with_suffix('.part')
         part.write_text(to_json([found]), encoding='utf-8')
         os.replace(part, result)  # whoever reads it finds a whole one

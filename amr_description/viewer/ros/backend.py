@@ -55,7 +55,7 @@ from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
 from amr_description.viewer.ros.introspection import GraphMessage
 from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
 from amr_description.viewer.ros.page_recorder import PageRecorder
-from amr_description.viewer.ros.parameters import NodeParameters
+from amr_description.viewer.ros.parameters import ParameterClients
 from amr_description.viewer.ros.publications import fields_of_type, Publications
 from amr_description.viewer.ros.robot import commanders_of, RobotConnection, still_held
 from amr_description.viewer.ros.service_clients import (
@@ -117,7 +117,7 @@ class GraphBackend(GraphObserver):
         self._states = StateAssembler()
         self._monitor = GraphMonitor(node, self._states, self._services)
         self._monitor.observer = self
-        self._parameters = NodeParameters(self._services, executor)
+        self._parameters = ParameterClients(self._services, executor)
         log = node.get_logger().info
         self._publications = Publications(node, executor, self._refusal, self._now, log)
         self._goals = Goals(

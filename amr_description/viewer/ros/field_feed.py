@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from rclpy.node import Node
 
-from amr_description.cdr.layouts import Group, Many, Number
+from amr_description.cdr.layouts import FieldGroup, Many, Number
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError
 from amr_description.ros.cdr_fields import FieldReader, NOT_THERE, why_no_number
@@ -17,7 +17,7 @@ from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.viewer.protocol import Origin, Values
 from amr_description.viewer.ros.message_feed import unreadable
-from amr_description.viewer.ros.source import Source, SourceTopic
+from amr_description.viewer.ros.source import SourceTopic, TopicSource
 from amr_description.viewer.ros.topic_rate import Rate
 from amr_description.viewer.samples import encode_sample
 
@@ -48,7 +48,9 @@ class Fields:
 class FieldFeed:
     """One topic; made and destroyed on the ROS thread, polled on the server's thread."""
 
-    def __init__(self, node: Node, source: Source, receive_time: Callable[[int], float]) -> None:
+    def __init__(
+        self, node: Node, source: TopicSource, receive_time: Callable[[int], float]
+    ) -> None:
         """
         Subscribe.
 
@@ -170,7 +172,7 @@ def fields_of(message_class: Any, paths: tuple[str, ...]) -> Fields:
     return Fields(paths, faults, read_and_place)
 
 
-def _is_large(layout: Group) -> bool:
+def _is_large(layout: FieldGroup) -> bool:
     """Return whether messages have octets, as pictures and clouds do."""
     return any(
         isinstance(field, Many) and isinstance(field.element, Number) and field.element.size == 1

@@ -16,7 +16,7 @@ import time
 from rclpy.node import Node
 
 from amr_description.doctor.findings import Finding
-from amr_description.doctor.ros.collector import Examination, PROBES, WINDOW
+from amr_description.doctor.ros.collector import PROBES, RosExamination, WINDOW
 from amr_description.doctor.ros.sensors import SensorsProbe
 from amr_description.doctor.table import examine
 from amr_description.viewer.introspection import FindingInfo, Findings
@@ -41,7 +41,7 @@ class Health:
         self._is_watched = False
         self._began = -_PERIOD
         self._doctor: Node | None = None
-        self._examination: Examination | None = None
+        self._examination: RosExamination | None = None
         self.latest: Findings | None = None
         """Those of the last examination, while pages watch them; replaced as a whole."""
 
@@ -82,7 +82,7 @@ class Health:
         )
         assert self._node.executor is not None, 'it is polled by a timer of the node'
         self._node.executor.add_node(self._doctor)
-        self._examination = Examination(self._doctor, _PROBES)
+        self._examination = RosExamination(self._doctor, _PROBES)
 
     def _end(self) -> None:
         if self._examination is not None:

@@ -14,7 +14,7 @@ from rclpy.node import Node
 from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
 from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.health import Health
-from amr_description.viewer.ros.log_lines import LogLines
+from amr_description.viewer.ros.log_lines import RosoutLines
 from amr_description.viewer.ros.topic_list import list_topics, TopicRates
 from amr_description.viewer.ros.transform_list import TransformList
 
@@ -40,13 +40,13 @@ class Introspection:
         self._topics: Topics | None = None
         self._transforms: TransformList | None = None
         self._namespaces: tuple[str, ...] = ()
-        self._log: LogLines | None = None
+        self._log: RosoutLines | None = None
         self._polls = 0
         self._health = Health(node, lambda found: tell('findings', found))
 
     def open(self) -> None:
         """The first page is there."""
-        self._log = LogLines(self._node)
+        self._log = RosoutLines(self._node)
 
     def close(self) -> None:
         """There are no pages any more."""

@@ -39,7 +39,7 @@ _LEVELS: tuple[tuple[int, Level], ...] = (
 )
 
 
-class LogLines:
+class RosoutLines:
     """Subscribes to /rosout; on the ROS thread, but for :attr:`kept`, which is replaced."""
 
     def __init__(self, node: Node) -> None:

@@ -8,14 +8,14 @@ import json
 
 from rclpy.node import Node
 
-from amr_description.cdr.layouts import Group
+from amr_description.cdr.layouts import FieldGroup
 from amr_description.ros.cdr_tree import read_tree
 from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.text import shorten
 from amr_description.viewer.protocol import AnyMessage, Channel, Origin, Unreadable
 from amr_description.viewer.ros.newest_feed import NewestFeed
-from amr_description.viewer.ros.source import Source, SourceTopic
+from amr_description.viewer.ros.source import SourceTopic, TopicSource
 from amr_description.viewer.samples import encode_sample
 
 _PERIOD = 0.1
@@ -29,7 +29,7 @@ _LARGE = 8 * 1024
 class MessageFeed(NewestFeed):
     """Any topic."""
 
-    def __init__(self, node: Node, source: Source) -> None:
+    def __init__(self, node: Node, source: TopicSource) -> None:
         self._source = source
 
         def subscribe() -> SourceTopic:
@@ -53,7 +53,7 @@ class MessageFeed(NewestFeed):
         return len(message.data) >= _LARGE
 
 
-def sample_of(layout: Group, data: bytes, topic: str, rate: float | None) -> bytes:
+def sample_of(layout: FieldGroup, data: bytes, topic: str, rate: float | None) -> bytes:
     """Return the frame of a sample of a message; one that is broken says so in one line."""
     try:
         tree = json.dumps(read_tree(layout, data), ensure_ascii=False, separators=(',', ':'))

@@ -49,7 +49,7 @@ _TRIES = 3
 _MOST_ELEMENTS = 1000
 
 
-class NodeParameters:
+class ParameterClients:
     """Parameters of one node after the other: clients are kept for the last one alone."""
 
     def __init__(self, services: ServiceClients, executor: Executor) -> None:

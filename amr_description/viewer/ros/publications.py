@@ -14,7 +14,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from amr_description.cdr.layouts import Group, Layout, Many, Text
+from amr_description.cdr.layouts import FieldGroup, Layout, Many, Text
 from amr_description.errors import ViewerError
 from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.message_fields import set_fields
@@ -31,7 +31,7 @@ _DEPTH = 10
 
 
 @dataclass(slots=True)
-class _Publication:
+class _PagePublication:
     """One topic of one page."""
 
     publisher: Publisher
@@ -40,7 +40,7 @@ class _Publication:
 
 
 @dataclass(slots=True, eq=False)
-class _Asked:
+class _AskedPublication:
     """A request for whose publisher a page waits."""
 
     page: str
@@ -70,9 +70,9 @@ class Publications:
         self._refusal = refusal
         self._now = now
         self._log = log
-        self._of: dict[tuple[str, str], _Publication] = {}
+        self._of: dict[tuple[str, str], _PagePublication] = {}
         """(page, topic) -> what it publishes."""
-        self._asked: set[_Asked] = set()
+        self._asked: set[_AskedPublication] = set()
         self._making = asyncio.Lock()
         """Two requests at once must not make two publishers on one topic of a page."""
 
@@ -126,7 +126,7 @@ class Publications:
             raise ViewerError(refusal)
 
     def _repeat(
-        self, found: _Publication, topic: str, period: float, send: Callable[[], None]
+        self, found: _PagePublication, topic: str, period: float, send: Callable[[], None]
     ) -> None:
         loop = asyncio.get_running_loop()
 
@@ -144,9 +144,9 @@ class Publications:
         due = loop.time() + period
         found.timer = loop.call_at(due, again, due)
 
-    async def _publication(self, page: str, topic: str, kind: Any, name: str) -> _Publication:
+    async def _publication(self, page: str, topic: str, kind: Any, name: str) -> _PagePublication:
         """Return what a page publishes on a topic, made if need be. Raises ViewerError."""
-        asked = _Asked(page)
+        asked = _AskedPublication(page)
         self._asked.add(asked)
         try:
             async with self._making:
@@ -155,8 +155,8 @@ class Publications:
             self._asked.discard(asked)
 
     async def _known_or_made(
-        self, asked: _Asked, topic: str, kind: Any, name: str
-    ) -> _Publication:
+        self, asked: _AskedPublication, topic: str, kind: Any, name: str
+    ) -> _PagePublication:
         page = asked.page
         key = page, topic
         found = self._of.get(key)
@@ -172,14 +172,14 @@ class Publications:
         publisher = await on_ros_thread(
             self._executor, lambda: self._node.create_publisher(kind, topic, _DEPTH)
         )
-        made = _Publication(publisher, name)
+        made = _PagePublication(publisher, name)
         if asked.has_gone:
             self._end([made])
             raise ViewerError(f'{page} has gone')
         self._of[key] = made
         return made
 
-    def _end(self, publications: list[_Publication]) -> None:
+    def _end(self, publications: list[_PagePublication]) -> None:
         for each in publications:
             if each.timer is not None:
                 each.timer.cancel()
@@ -199,21 +199,21 @@ def fields_of_type(name: str) -> tuple[FieldInfo, ...]:
     return _fields(layout_of(kind), kind())
 
 
-def _fields(layout: Group, example: Any) -> tuple[FieldInfo, ...]:
+def _fields(layout: FieldGroup, example: Any) -> tuple[FieldInfo, ...]:
     return tuple(_field(name, each, getattr(example, name)) for name, each in layout.fields)
 
 
 def _field(name: str, layout: Layout, value: Any) -> FieldInfo:
     if isinstance(layout, Many):
         element = layout.element
-        inner = () if not isinstance(element, Group) else _fields(element, _example(element))
+        inner = () if not isinstance(element, FieldGroup) else _fields(element, _example(element))
         return FieldInfo(name, _kind(element), layout.count or 0, inner, None)
-    if isinstance(layout, Group):
+    if isinstance(layout, FieldGroup):
         return FieldInfo(name, layout.name, None, _fields(layout, value), None)
     return FieldInfo(name, _kind(layout), None, (), ord(value) if _is_octet(value) else value)
 
 
-def _example(layout: Group) -> Any:
+def _example(layout: FieldGroup) -> Any:
     return message_type(layout.name)()
 
 

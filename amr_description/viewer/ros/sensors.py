@@ -12,7 +12,7 @@ from amr_description.ros.polled_topic import NumberedMessage, PolledTopic
 from amr_description.viewer.protocol import SensorInfo
 from amr_description.viewer.ros.newest_feed import NewestFeed
 from amr_description.viewer.ros.sensor_samples import sample_of, unreadable
-from amr_description.viewer.ros.source import Source, SourceTopic
+from amr_description.viewer.ros.source import SourceTopic, TopicSource
 
 _FASTEST = {
     'picture': 15.0,
@@ -33,7 +33,7 @@ KEPT = {'map', 'path'}
 class SensorFeed(NewestFeed):
     """The topic of a sensor; ``source`` is what publishes it, if that may keep messages."""
 
-    def __init__(self, node: Node, info: SensorInfo, source: Source | None = None) -> None:
+    def __init__(self, node: Node, info: SensorInfo, source: TopicSource | None = None) -> None:
         self.info = info
         self._period = 1.0 / _FASTEST[info.kind]
         super().__init__(partial(_subscribe, node, info, source))
@@ -53,7 +53,7 @@ class SensorFeed(NewestFeed):
 
 
 def _subscribe(
-    node: Node, info: SensorInfo, source: Source | None
+    node: Node, info: SensorInfo, source: TopicSource | None
 ) -> PolledTopic[bytes] | SourceTopic:
     """Subscribe to a topic. Raises AmrError."""
     kind = message_type(info.message)  # its package need not be installed here

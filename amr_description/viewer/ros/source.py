@@ -23,7 +23,7 @@ _FREQUENT = 5
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class TopicSource:
     """
     What publishes on a topic.
 
@@ -47,7 +47,7 @@ class Source:
         return message_type(self.types[0], f'The type of {self.topic}')
 
 
-def source_of(node: Node, topic: str) -> Source | None:
+def source_of(node: Node, topic: str) -> TopicSource | None:
     """Return what publishes on a topic; None: nothing does, or it is no name."""
     try:
         validate_full_topic_name(topic)  # what a page asks for need not be a name
@@ -57,7 +57,7 @@ def source_of(node: Node, topic: str) -> Source | None:
     if not found:
         return None
     qos = [each.qos_profile for each in found]
-    return Source(
+    return TopicSource(
         topic,
         tuple(sorted({each.topic_type for each in found})),
         keeps=all(
@@ -78,7 +78,7 @@ class SourceTopic:
     frequent: ros2_control keeps the last message of every topic, also of one of 1 kHz.
     """
 
-    def __init__(self, node: Node, source: Source, message_class: Any, depth: int) -> None:
+    def __init__(self, node: Node, source: TopicSource, message_class: Any, depth: int) -> None:
         """
         Subscribe. Raises AmrError.
 

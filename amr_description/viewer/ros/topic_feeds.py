@@ -20,7 +20,7 @@ from amr_description.viewer.protocol import Channel, SensorInfo
 from amr_description.viewer.ros.field_feed import FieldFeed
 from amr_description.viewer.ros.message_feed import MessageFeed
 from amr_description.viewer.ros.sensors import KEPT, SensorFeed
-from amr_description.viewer.ros.source import Source, source_of
+from amr_description.viewer.ros.source import source_of, TopicSource
 from amr_description.viewer.samples import Sample
 
 Feed: TypeAlias = SensorFeed | MessageFeed | FieldFeed
@@ -34,8 +34,8 @@ class _Key:
 
     channel: Channel
     topic: str
-    of: SensorInfo | Source
-    source: Source | None = None
+    of: SensorInfo | TopicSource
+    source: TopicSource | None = None
     """Of a sensor that is subscribed to as its publishers are."""
 
     @property

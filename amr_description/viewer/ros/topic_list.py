@@ -20,7 +20,7 @@ from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.rclpy_internals import RCLError
 from amr_description.viewer.graph import SENSORS
 from amr_description.viewer.introspection import Endpoint, TopicInfo, Topics
-from amr_description.viewer.ros.source import Source, source_of
+from amr_description.viewer.ros.source import source_of, TopicSource
 from amr_description.viewer.ros.topic_rate import Rate
 
 _UNKNOWN = '?'
@@ -75,7 +75,7 @@ class TopicRates:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._topics: dict[Source, PolledTopic[bytes] | None] = {}
+        self._topics: dict[TopicSource, PolledTopic[bytes] | None] = {}
         self._rates: dict[str, Rate] = {}
 
     def measure(self, names: Iterable[str]) -> None:
@@ -102,7 +102,7 @@ class TopicRates:
         if last is not None:
             rate.add(last if is_alone else last._replace(number=None), count)
 
-    def _subscription(self, source: Source) -> PolledTopic[bytes] | None:
+    def _subscription(self, source: TopicSource) -> PolledTopic[bytes] | None:
         if source.types[0] in SENSORS:
             return None
         try:
@@ -114,7 +114,7 @@ class TopicRates:
         except (AmrError, RCLError):  # such as another type that this process has the topic with
             return None
 
-    def _destroy(self, source: Source) -> None:
+    def _destroy(self, source: TopicSource) -> None:
         topic = self._topics.pop(source)
         if topic is not None:
             topic.destroy()

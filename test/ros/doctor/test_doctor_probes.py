@@ -17,7 +17,7 @@ from support.ros_processes import PATIENCE
 from tf2_msgs.msg import TFMessage
 
 from amr_description.clock import NANOSECONDS
-from amr_description.doctor.observations.commands import Drive
+from amr_description.doctor.observations.commands import ObservedDrive
 from amr_description.doctor.ros import (
     clock as clock_probe,
     commands as command_probe,
@@ -25,7 +25,7 @@ from amr_description.doctor.ros import (
     transforms as transforms_probe,
 )
 from amr_description.doctor.ros.clock import ClockProbe, stamp_in
-from amr_description.doctor.ros.collector import collect, Examination, what_is_made_goes
+from amr_description.doctor.ros.collector import collect, RosExamination, what_is_made_goes
 from amr_description.doctor.ros.commands import CommandProbe, drive_of
 from amr_description.doctor.ros.graph import serves
 from amr_description.doctor.ros.heard import HeardTopic
@@ -201,7 +201,7 @@ def test_a_probe_that_raises_takes_no_other_with_it(graph, where):
 
 def test_an_examination_that_is_broken_off_keeps_no_node(graph):
     node = Node('page', start_parameter_services=False)
-    examination = Examination(node, GRAPH)
+    examination = RosExamination(node, GRAPH)
     assert node in _SHARED
     examination.end()
     assert node not in _SHARED
@@ -245,5 +245,5 @@ LIMITS = {'linear.x.max_velocity': 0.5, 'linear.x.min_velocity': float('nan')}
     ],
 )
 def test_a_drive_by_its_parameters(topic, values, expected):
-    drive = expected and Drive(node='/n', topics=(topic,), **expected)
+    drive = expected and ObservedDrive(node='/n', topics=(topic,), **expected)
     assert drive_of('/n', (topic,), values) == drive

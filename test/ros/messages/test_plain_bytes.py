@@ -7,7 +7,7 @@ import struct
 
 import pytest
 
-from amr_description.cdr.layouts import Group, Many, Number, Text
+from amr_description.cdr.layouts import FieldGroup, Many, Number, Text
 from amr_description.cdr.serialized import fill, serialized
 from amr_description.messages.definitions import layout_of, texts
 from amr_description.messages.plain import message_of, PlainMessage
@@ -33,7 +33,7 @@ def drawn(layout, chance):
             return chance.randrange(2 * half) - (half if code.islower() else 0)
         case Text():
             return chance.choice(WORDS)
-        case Group(fields=fields):
+        case FieldGroup(fields=fields):
             return {name: drawn(field, chance) for name, field in fields}
         case Many(element=element, count=count):
             length = chance.randrange(3) if count is None else count

@@ -21,9 +21,9 @@ from support.contract_graph import (
 )
 from tf2_msgs.msg import TFMessage
 
-from amr_description.navigation.contract.findings import Verdict
+from amr_description.navigation.contract.findings import CheckVerdict
 from amr_description.navigation.contract.frame_rules import TF_TIMEOUT
-from amr_description.navigation.contract.observations import Frames
+from amr_description.navigation.contract.observations import ContractFrames
 from amr_description.navigation.contract.rules import examine
 from amr_description.navigation.ros.contract.collector import Collector
 from amr_description.ros.service_calls import wait_until
@@ -37,7 +37,7 @@ def collector():
     rclpy.init(args=[])
     node = Node('check_navigation')
     try:
-        yield Collector(node, Frames(), is_stamped=False)
+        yield Collector(node, ContractFrames(), is_stamped=False)
     finally:
         node.destroy_node()  # else it stays in the graph, for the tests that come
         rclpy.try_shutdown()
@@ -67,14 +67,14 @@ def findings(collector):
 
 
 def failed(found):
-    return {name for name, each in found.items() if each.verdict is Verdict.FAILED}
+    return {name for name, each in found.items() if each.verdict is CheckVerdict.FAILED}
 
 
 def test_a_good_robot(collector, nodes):
     Robot(collector, nodes).run(1.0)
     found = findings(collector)
     assert failed(found) == set()
-    unknown = {name for name, each in found.items() if each.verdict is Verdict.NOT_CHECKED}
+    unknown = {name for name, each in found.items() if each.verdict is CheckVerdict.NOT_CHECKED}
     assert unknown == {
         'odom.twist',
         'slam.max_laser_range',

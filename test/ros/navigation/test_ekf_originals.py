@@ -14,7 +14,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped, TwistWithCovarianceStam
 import pytest
 
 from amr_description.clock import NANOSECONDS
-from amr_description.navigation.ekf import Member
+from amr_description.navigation.ekf import StateMember
 from amr_description.navigation.ekf_estimator import Estimator
 from amr_description.navigation.ekf_parameters import read_parameters
 from amr_description.navigation.ros.ekf_inputs import InputReader
@@ -46,10 +46,10 @@ class Filter:
             self._estimator.integrate(self._time)
 
     def __getitem__(self, name):
-        return self._estimator.filter.state[Member[name.upper()]]
+        return self._estimator.filter.state[StateMember[name.upper()]]
 
     def variance(self, name):
-        index = Member[name.upper()]
+        index = StateMember[name.upper()]
         return self._estimator.filter.covariance[index, index]
 
 

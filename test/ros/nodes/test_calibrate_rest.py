@@ -5,7 +5,7 @@
 from nav_msgs.msg import Odometry
 
 from amr_description.clock import NANOSECONDS
-from amr_description.nodes.calibrate.drive import CalibrationDrive, REST, Track
+from amr_description.nodes.calibrate.drive import CalibrationDrive, DriveTrack, REST
 from amr_description.ros.messages import fill_stamp
 
 SECOND = NANOSECONDS
@@ -23,7 +23,7 @@ class Drive(CalibrationDrive):
     """Its waits end at once, and leave their conditions."""
 
     def __init__(self):
-        self._truth, self._odometry = Track(), Track()
+        self._truth, self._odometry = DriveTrack(), DriveTrack()
         self.conditions = []
 
     def _send(self):

@@ -10,11 +10,11 @@ from hypothesis import given, strategies as st
 from amr_description.nodes.view_frames.drawing import (
     as_pdf,
     as_svg,
-    Box,
     draw,
+    DrawnBox,
+    DrawnText,
     LETTER_WIDTH,
     Line,
-    Text,
 )
 from amr_description.tf2_ros.frame_graph import FrameRecord
 
@@ -38,7 +38,7 @@ def forests(draw_from):
 
 
 def area(shape):
-    if isinstance(shape, Box):
+    if isinstance(shape, DrawnBox):
         return shape.x, shape.y, shape.x + shape.width, shape.y + shape.height
     half = len(shape.text) * shape.size * LETTER_WIDTH / 2
     return shape.x - half, shape.y - 0.8 * shape.size, shape.x + half, shape.y + 0.2 * shape.size
@@ -56,8 +56,8 @@ def of(drawing, kind):
 def test_nothing_overlaps_or_leaves_the_sheet(records):
     drawing = draw(records, 0)
     names = {one.name for one in records} | {one.parent for one in records}
-    boxes = [area(box) for box in of(drawing, Box)]
-    notes = [area(text) for text in of(drawing, Text) if text.text not in names]
+    boxes = [area(box) for box in of(drawing, DrawnBox)]
+    notes = [area(text) for text in of(drawing, DrawnText) if text.text not in names]
     assert len(boxes) == len(names)
     for index, one in enumerate(boxes + notes):
         assert 0 <= one[0] <= one[2] <= drawing.width
@@ -68,9 +68,9 @@ def test_nothing_overlaps_or_leaves_the_sheet(records):
 @given(forests())
 def test_each_name_stands_in_a_box_and_each_child_hangs_below_its_parent(records):
     drawing = draw(records, 0)
-    boxes = [area(box) for box in of(drawing, Box)]
+    boxes = [area(box) for box in of(drawing, DrawnBox)]
     place = {}
-    for text in of(drawing, Text):
+    for text in of(drawing, DrawnText):
         for box in boxes:
             if overlap(area(text), box):
                 place[text.text] = box
@@ -117,11 +117,11 @@ def test_a_drawing_too_large_for_a_page_is_made_smaller():
 
 
 def test_nothing_heard_is_drawn_as_such():
-    texts = [text.text for text in of(draw([], 0), Text)]
+    texts = [text.text for text in of(draw([], 0), DrawnText)]
     assert texts == ['Recorded at time: 0.000000', 'No tf data received']
 
 
 def test_a_loop_is_drawn_cut():
-    texts = [text.text for text in of(draw([record('a', 'b'), record('b', 'a')], 0), Text)]
+    texts = [text.text for text in of(draw([record('a', 'b'), record('b', 'a')], 0), DrawnText)]
     assert 'a (in a loop, below b)' in texts
     assert 'b' in texts

@@ -17,9 +17,9 @@ from amr_description.model.frames import Transform
 from amr_description.model.urdf import load, parse
 from amr_description.nodes.robot_state_publisher.robot_state import (
     Arrivals,
+    JointThrottle,
     period_of,
     RobotState,
-    Throttle,
 )
 
 FIXTURES = ROOT / 'test/fixtures/urdf'
@@ -216,7 +216,7 @@ def test_the_period_of_a_frequency(frequency, period):
 
 def published(stamps, period=50 * MILLISECOND, names=('wheel',)):
     """Return the stamps (ns) that are published when messages with these stamps come in."""
-    throttle = Throttle()
+    throttle = JointThrottle()
     let_pass = []
     for stamp in stamps:
         if throttle.admit(names, stamp):
@@ -273,7 +273,7 @@ def test_period_zero_lets_every_message_pass_that_is_not_older():
 
 
 def test_two_sources_do_not_starve_one_another():
-    throttle = Throttle()
+    throttle = JointThrottle()
     passed = {'wheels': 0, 'arm': 0}
     for stamp in range(0, 1000, 10):
         for source in passed:
@@ -284,14 +284,14 @@ def test_two_sources_do_not_starve_one_another():
 
 
 def test_a_message_is_due_when_one_of_its_joints_is():
-    throttle = Throttle()
+    throttle = JointThrottle()
     throttle.note(['wheel'], 100, 50)
     assert not throttle.admit(['wheel'], 149)
     assert throttle.admit(['wheel', 'unknown'], 149)
 
 
 def test_a_joint_that_is_published_early_with_another_waits_for_a_whole_period():
-    throttle = Throttle()
+    throttle = JointThrottle()
     throttle.note(['wheel'], 100, 50)
     throttle.note(['wheel', 'unknown'], 120, 50)
     assert not throttle.admit(['wheel'], 169)
@@ -299,7 +299,7 @@ def test_a_joint_that_is_published_early_with_another_waits_for_a_whole_period()
 
 
 def test_after_forgetting_everything_is_due():
-    throttle = Throttle()
+    throttle = JointThrottle()
     throttle.note(['wheel'], 1000, 50)
     assert not throttle.admit(['wheel'], 10)
     throttle.forget()
@@ -307,7 +307,7 @@ def test_after_forgetting_everything_is_due():
 
 
 def test_the_earliest_stamp_that_can_be_due_is_known():
-    throttle = Throttle()
+    throttle = JointThrottle()
     assert throttle.earliest is None
     for stamp in range(0, 1000, 10):
         if throttle.admit(['wheel', 'arm'], stamp):
@@ -320,7 +320,7 @@ def test_the_earliest_stamp_that_can_be_due_is_known():
 
 
 def test_a_joint_that_is_no_longer_published_is_not_waited_for():
-    throttle = Throttle()
+    throttle = JointThrottle()
     throttle.note(['arm'], 0, 50 * MILLISECOND)
     throttle.note(['wheel'], 100 * MILLISECOND, 50 * MILLISECOND)
     assert throttle.earliest == 50 * MILLISECOND  # the arm has long been due

@@ -6,7 +6,7 @@ import pytest
 
 from amr_description.nodes.teleop_twist_keyboard.keys import (
     HELP,
-    Hold,
+    KeyHold,
     MOVES,
     SPEEDS,
     Teleop,
@@ -92,7 +92,7 @@ RELEASE = 'release of '
 
 def drive(presses, *, period=0.1, key_timeout=0.7, until=5.0):
     """Run the two as the node does; return what is published: [(time, velocity)]."""
-    teleop, hold = Teleop(0.5, 1.0), Hold(period, key_timeout)
+    teleop, hold = Teleop(0.5, 1.0), KeyHold(period, key_timeout)
     presses = [*presses]
     published = []
     now = 0.0

@@ -23,7 +23,7 @@ from amr_description.model.gazebo import Noise
 from amr_description.model.sensors import Camera, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until
-from amr_description.sim.cameras.renderer import Picture
+from amr_description.sim.cameras.renderer import RenderedPicture
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.topics.sensor_manager import SensorManager
 
@@ -190,7 +190,7 @@ def test_cameras_of_one_name_on_two_links_have_noise_of_their_own(host):
             for link in links
         )
     )
-    picture = Picture(np.full((48, 64, 3), 100, np.uint8), None)
+    picture = RenderedPicture(np.full((48, 64, 3), 100, np.uint8), None)
     host.sensors._equipment.renderer.render = lambda _: picture  # noqa: SLF001
     with (
         host.heard(Image, f'/{links[0]}/image') as first,

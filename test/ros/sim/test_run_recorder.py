@@ -22,7 +22,7 @@ from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, Loo
 from amr_description.errors import BagError
 from amr_description.messages.encoders import filling
 from amr_description.ros.cdr_padding import serialize
-from amr_description.sim.ros.run_recorder import RunRecorder
+from amr_description.sim.ros.run_recorder import RosRunRecorder
 from amr_description.simulation import run_recorder
 from amr_description.simulation.run_recorder import RunOptions
 
@@ -53,7 +53,7 @@ class Host:
         self.lines = []
 
     def record(self, **options):
-        self.recorder = RunRecorder(
+        self.recorder = RosRunRecorder(
             self.folder,
             RunOptions(**options),
             time=0,

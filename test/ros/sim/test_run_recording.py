@@ -19,8 +19,8 @@ from amr_description.control.contracts import Severity
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.errors import BagError
 from amr_description.ros.cdr_padding import serialize
-from amr_description.sim.ros.run_recorder import RunRecorder
-from amr_description.sim.ros.run_recording import RunRecording
+from amr_description.sim.ros.run_recorder import RosRunRecorder
+from amr_description.sim.ros.run_recording import RosRunRecording
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.text import shorten
 
@@ -47,7 +47,7 @@ class Host:
             self.node.declare_parameter(name, '')
         self.loop_publisher = ClockedLoopPublisher(self.node)
         self.lines, self.run = [], RunDescription({'seed': 1})
-        self.recording = RunRecording(
+        self.recording = RosRunRecording(
             self.node,
             self.loop_publisher,
             on_loop=lambda call: call(),
@@ -143,7 +143,7 @@ def test_a_recording_that_broke_off_is_refused_its_end_once(host, tmp_path, monk
 
 def test_the_control_thread_has_no_file_to_read_when_it_begins(host, tmp_path, monkeypatch):
     prepared, described = [], []
-    monkeypatch.setattr(RunRecorder, 'prepare', lambda _, name: prepared.append(name))
+    monkeypatch.setattr(RosRunRecorder, 'prepare', lambda _, name: prepared.append(name))
 
     def attach(call):
         assert 'rosgraph_msgs/msg/Clock' in prepared

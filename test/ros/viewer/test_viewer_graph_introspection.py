@@ -23,7 +23,7 @@ from amr_description.errors import AmrError
 from amr_description.launch_log import LAUNCH_LOG
 from amr_description.viewer.requests import Publish, SetParameter
 from amr_description.viewer.ros.introspection import Introspection
-from amr_description.viewer.ros.parameters import NodeParameters
+from amr_description.viewer.ros.parameters import ParameterClients
 from amr_description.viewer.ros.publications import fields_of_type, Publications
 from amr_description.viewer.ros.service_clients import ServiceClients
 
@@ -168,7 +168,7 @@ def test_warnings_are_kept_and_all_lines_are_told_to_who_looks(ros, shown):
 def parameters(ros):
     viewer, _, executor = ros
     services = ServiceClients(viewer)
-    yield NodeParameters(services, executor)
+    yield ParameterClients(services, executor)
     executor.create_task(services.set_more, {})
 
 

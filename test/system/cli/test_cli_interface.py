@@ -9,7 +9,12 @@ from fixtures.cli.commands import ros2, shell, started
 import pytest
 from support.paths import ROOT
 
-from amr_description.cli.interface.definition import Comments, Definition, expand, message_type_of
+from amr_description.cli.interface.definition import (
+    Comments,
+    expand,
+    InterfaceText,
+    message_type_of,
+)
 from amr_description.cli.interface.index import all_interfaces, interfaces_of, read_definition
 from amr_description.errors import AmrError
 
@@ -37,7 +42,7 @@ DEFINITIONS = {
 
 def expanded(name, **comments):
     def read(name):
-        return Definition(DEFINITIONS[name])
+        return InterfaceText(DEFINITIONS[name])
 
     return list(expand(name, read, Comments(**comments)))
 
@@ -108,7 +113,9 @@ def test_a_message_in_itself_is_an_error_and_no_loop():
 
 def test_idl_is_shown_as_it_stands():
     text = 'module toy_msgs {\n  // comment\n#include "x.idl"\nLeaf leaf;\n};'
-    lines = list(expand('toy_msgs/msg/X', lambda _: Definition(text, idl=True), Comments(False)))
+    lines = list(
+        expand('toy_msgs/msg/X', lambda _: InterfaceText(text, idl=True), Comments(False))
+    )
     assert lines == text.splitlines()
 
 
@@ -153,7 +160,7 @@ def test_every_definition_that_is_installed_can_be_shown():
 )
 def test_packages_that_we_compile_are_shown_too(name):
     source = ROOT / 'interfaces' / f'{name}.{name.split("/")[1]}'
-    assert read_definition(name) == Definition(source.read_text())
+    assert read_definition(name) == InterfaceText(source.read_text())
     assert name.partition('/')[2] in interfaces_of(name.partition('/')[0])
 
 

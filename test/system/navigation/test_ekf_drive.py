@@ -21,7 +21,7 @@ import yaml
 from amr_description.clock import NANOSECONDS
 from amr_description.maps.pose import wrapped
 from amr_description.model.frames import Transform
-from amr_description.navigation.ekf import Member
+from amr_description.navigation.ekf import StateMember
 from amr_description.navigation.ekf_estimator import Estimator
 from amr_description.navigation.ekf_parameters import read_parameters
 from amr_description.navigation.ros.ekf_inputs import InputReader
@@ -130,12 +130,14 @@ def test_the_imu_corrects_the_heading_of_the_wheels(drive):
     state = fused(drive).state
     # Wheels say that it turned as if they rolled: 1 / 0.36 times as far as it did.
     assert yaw_error(drive, drive.odometry.yaw) > 1.0
-    assert yaw_error(drive, state[Member.YAW]) < math.radians(0.5)
+    assert yaw_error(drive, state[StateMember.YAW]) < math.radians(0.5)
     true = drive.truth.pose.translation[:2]
     assert math.dist(true, drive.odometry.pose.translation[:2]) > 1.0
     # Of 3.9 m: what the wheels slip along, and that between two messages the path is straight.
     assert math.dist(true, state[:2]) < 0.04
-    assert not state[[Member.Z, Member.ROLL, Member.PITCH, Member.VZ, Member.AZ]].any()
+    assert not state[
+        [StateMember.Z, StateMember.ROLL, StateMember.PITCH, StateMember.VZ, StateMember.AZ]
+    ].any()
 
 
 @pytest.mark.long
@@ -149,4 +151,4 @@ def test_two_runs_give_the_same_bits(controllers, drive):
 def test_wheels_alone_stay_wrong(drive):
     # The correction is by the IMU, not by the filter.
     wheels = Drive([row for row in drive.messages if row[1] == 'odom'], drive.truth, None)
-    assert yaw_error(drive, fused(wheels).state[Member.YAW]) > math.radians(30)
+    assert yaw_error(drive, fused(wheels).state[StateMember.YAW]) > math.radians(30)

@@ -16,13 +16,18 @@ from support.warehouse_goals import (
 
 from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.costmap import Costmap, CostmapSettings
-from amr_description.navigation.drive import Drive, DriveSettings, GoalCheckerSettings, Status
+from amr_description.navigation.drive import (
+    DriveStatus,
+    GoalCheckerSettings,
+    NavigationDrive,
+    NavigationDriveSettings,
+)
 from amr_description.navigation.footprint import inscribed_radius, outline
 from amr_description.navigation.regulated_pure_pursuit import PursuitSettings
 from amr_description.testing.simulation import Simulation
 
 PERIOD = 0.05
-SETTINGS = DriveSettings(
+SETTINGS = NavigationDriveSettings(
     goal_checker=GoalCheckerSettings(
         xy_goal_tolerance=0.05,
         yaw_goal_tolerance=0.05,
@@ -66,10 +71,10 @@ def see(sim, costmap):
 
 
 def drive_to(sim, goal, costmap):
-    drive = Drive(SETTINGS, outline(FOOTPRINT, 0.025), [goal])
+    drive = NavigationDrive(SETTINGS, outline(FOOTPRINT, 0.025), [goal])
     began = sim.time
     odd = False
-    while drive.status is Status.RUNNING and sim.time - began < LONGEST:
+    while drive.status is DriveStatus.RUNNING and sim.time - began < LONGEST:
         if odd := not odd:  # 10 Hz
             see(sim, costmap)
             assert not touched(sim), f'on the way to {goal}'
@@ -85,7 +90,7 @@ def test_random_goals_are_reached_without_touching_anything(sim, count):
     costmap = Costmap(warehouse(), inscribed_radius(FOOTPRINT), COSTS)
     for goal in random_goals(count, seed=20):
         drive = drive_to(sim, goal, costmap)
-        assert drive.status is Status.SUCCEEDED, f'{goal}: {drive.error}'
+        assert drive.status is DriveStatus.SUCCEEDED, f'{goal}: {drive.error}'
         pose = pose_of(sim)
         away, turn = pose.distance(goal), math.degrees(wrapped(pose.yaw - goal.yaw))
         print(

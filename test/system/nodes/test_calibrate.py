@@ -16,9 +16,9 @@ from support.ros_processes import ROOT, run, running
 from support.running_programs import PATIENCE, Program
 
 from amr_description.clock import NANOSECONDS
-from amr_description.controllers.drive_calibration import Geometry, Run, Travel
+from amr_description.controllers.drive_calibration import CalibrationRun, Geometry, Travel
 from amr_description.nodes.calibrate import manoeuvres, patch, report
-from amr_description.nodes.calibrate.drive import Track
+from amr_description.nodes.calibrate.drive import DriveTrack
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.service_calls import call, wait_until
 
@@ -188,7 +188,7 @@ def test_options_must_be_positive_numbers(option, value):
 
 @pytest.mark.parametrize('gap, is_lost', [(1.0, False), (2.0, True)])
 def test_messages_that_leave_room_for_a_missed_turn_are_not_trusted(gap, is_lost):
-    track = Track()
+    track = DriveTrack()
     message = Odometry()
     track.add(message)
     track.restart()
@@ -216,8 +216,8 @@ def test_every_manoeuvre_has_its_counterpart_and_a_limit():
 def test_the_report_tells_turns_in_degrees_and_the_patch_is_yaml_of_the_node():
     geometry, better = Geometry(0.3, 2.0), Geometry(0.3, 2.5)
     runs = [
-        Run('straight', 1.0, 1.0, Travel(1.0, 0.0)),
-        Run('spin', -0.3, 0.3, Travel(0.0, 0.8)),
+        CalibrationRun('straight', 1.0, 1.0, Travel(1.0, 0.0)),
+        CalibrationRun('spin', -0.3, 0.3, Travel(0.0, 0.8)),
     ]
     lines = report(runs, geometry, better).splitlines()
     assert lines[1].split() == ['straight', '+1.0000', 'm'] + 2 * ['+1.0000', 'm', '0.0%']

@@ -19,7 +19,7 @@ from support.running_programs import Program
 from tf2_msgs.msg import TFMessage
 
 from amr_description.nodes.robot_state_publisher import RobotStatePublisher
-from amr_description.nodes.robot_state_publisher.robot_state import Throttle
+from amr_description.nodes.robot_state_publisher.robot_state import JointThrottle
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.runtime import spinning
 from amr_description.ros.service_calls import wait_until
@@ -185,7 +185,7 @@ def test_which_messages_are_published_depends_on_their_stamps_alone(start, liste
     """Also on those that have waited while nobody looked for them."""
     start(TWO_LINKS.format(kind='continuous', x=5))
     listener.hear((10, 0))
-    throttle, expected = Throttle(), []
+    throttle, expected = JointThrottle(), []
     throttle.note(['joint1'], 10 * 10**9, 50_000_000)
 
     def stamps():

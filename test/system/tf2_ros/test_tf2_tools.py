@@ -157,7 +157,9 @@ def test_the_publisher_reads_the_old_form_with_a_warning(words, request_):
     ],
 )
 def test_the_publisher_reports_what_it_cannot_read(words, said):
-    with pytest.raises(static_transform_publisher.ArgumentsError, match=f'^{said}') as error:
+    with pytest.raises(
+        static_transform_publisher.TransformArgumentsError, match=f'^{said}'
+    ) as error:
         static_transform_publisher.parse(words.split())
     assert error.value.exit_code == 1
 

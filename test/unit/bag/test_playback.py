@@ -6,7 +6,7 @@ from bisect import bisect_left
 
 import pytest
 
-from amr_description.bag.playback import Playback, PlaybackOptions
+from amr_description.bag.playback import BagPlayback, PlaybackOptions
 from amr_description.bag.storage import BagMessage
 
 MS = 10**6
@@ -40,7 +40,7 @@ class Player:
 
     def __init__(self, recording, **options):
         self.time = 0
-        self.playback = Playback(recording, PlaybackOptions(**options), lambda: self.time)
+        self.playback = BagPlayback(recording, PlaybackOptions(**options), lambda: self.time)
 
     def due(self):
         """Return after how many ms each message of now was recorded."""

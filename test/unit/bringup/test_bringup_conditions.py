@@ -21,7 +21,13 @@ from amr_description.bringup import (
     started,
     topic,
 )
-from amr_description.bringup.conditions import NodeState, PathState, RosGraph, StackState, Verdict
+from amr_description.bringup.conditions import (
+    NodeState,
+    PathState,
+    RosGraph,
+    StackState,
+    Verdict,
+)
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.errors import BringupError
 

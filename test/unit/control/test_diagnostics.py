@@ -8,7 +8,7 @@ import math
 import pytest
 from support.control_fakes import FakeController, FakeHardware, make_manager, MS, start
 
-from amr_description.control.diagnostic_thresholds import Diagnostics
+from amr_description.control.diagnostic_thresholds import DiagnosticThresholds
 from amr_description.control.diagnostics import Level, Report, reports, take_measurements
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.switching import Strictness
@@ -23,7 +23,7 @@ MANAGER = 'Controller Manager Activity'
 
 
 def reports_on(manager):
-    return reports(take_measurements(manager), Diagnostics(), manager.update_rate)
+    return reports(take_measurements(manager), DiagnosticThresholds(), manager.update_rate)
 
 
 def running(*components, controllers=(), rate=100):
@@ -279,7 +279,7 @@ def test_an_uneven_rate_is_bad_though_its_mean_is_good():
     ],
 )
 def test_a_manager_without_hardware_reports_what_it_waits_for(has_description, level, message):
-    found = reports(None, Diagnostics(), 100, has_description=has_description)
+    found = reports(None, DiagnosticThresholds(), 100, has_description=has_description)
     assert (found[MANAGER].level, found[MANAGER].message) == (level, message)
     assert found[MANAGER].values[0] == ('update_rate', '100')
     assert found[HARDWARE].level is Level.ERROR

@@ -9,10 +9,10 @@ from hypothesis import given, strategies as st
 import pytest
 
 from amr_description.controllers.drive_calibration import (
+    CalibrationRun,
     fit,
     Geometry,
     Path,
-    Run,
     Travel,
     yaw_error,
 )
@@ -39,7 +39,9 @@ TURNS = (  # travel of the left and the right wheels, m
 
 def run_of(drive, name, left, right):
     """What a robot with the geometry ``drive`` truly does."""
-    return Run(name, left, right, Run(name, left, right, Travel(0, 0)).odometry(drive))
+    return CalibrationRun(
+        name, left, right, CalibrationRun(name, left, right, Travel(0, 0)).odometry(drive)
+    )
 
 
 def runs_of(drive, turns=TURNS):
@@ -73,7 +75,7 @@ def test_what_was_believed_before_does_not_matter(drive, believed):
     """Odometry of another geometry holds the same turning of the wheels."""
     for turn in TURNS:
         run = run_of(drive, *turn)
-        again = Run.from_odometry(run.name, run.odometry(believed), run.truth, believed)
+        again = CalibrationRun.from_odometry(run.name, run.odometry(believed), run.truth, believed)
         assert (again.left, again.right) == pytest.approx((run.left, run.right), abs=1e-9)
 
 
@@ -89,7 +91,7 @@ def test_runs_that_contradict_each_other_are_balanced_not_followed():
     drive = Geometry(SEPARATION, 2.8)
     chance = random.Random(1)
     runs = [
-        Run(
+        CalibrationRun(
             run.name,
             run.left,
             run.right,
@@ -131,7 +133,7 @@ def test_too_few_kinds_of_runs_are_refused(names, message):
 
 def test_a_robot_that_goes_against_its_wheels_is_refused():
     runs = [
-        Run(run.name, run.left, run.right, Travel(-run.truth.distance, -run.truth.turn))
+        CalibrationRun(run.name, run.left, run.right, Travel(-run.truth.distance, -run.truth.turn))
         for run in runs_of(Geometry(SEPARATION))
     ]
     with pytest.raises(CalibrationError, match='left_wheel_radius_multiplier = -1: the robot'):

@@ -19,13 +19,13 @@ from support.doctor_graphs import (
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.findings import Severity
-from amr_description.doctor.observations.graph import Qos, STAMPED_TWIST, TWIST
+from amr_description.doctor.observations.graph import ObservedQos, STAMPED_TWIST, TWIST
 from amr_description.doctor.rules import clock, commands, graph as rules
 from amr_description.doctor.rules.topic_names import distance, is_near
 
 RULES = (*rules.RULES, *clock.RULES, *commands.RULES)
-BEST_EFFORT = Qos(is_reliable=False)
-LATCHED = Qos(is_transient_local=True)
+BEST_EFFORT = ObservedQos(is_reliable=False)
+LATCHED = ObservedQos(is_transient_local=True)
 
 
 def found(seen):
@@ -95,12 +95,12 @@ FAULTS = {
         'publish with TRANSIENT_LOCAL',
     ),
     'incompatible_qos deadline': (
-        graph(topic('/x', ['/a'], [end('/b', qos=Qos(deadline=NANOSECONDS // 2))])),
+        graph(topic('/x', ['/a'], [end('/b', qos=ObservedQos(deadline=NANOSECONDS // 2))])),
         '/a offers deadline infinite on /x, /b requests 0.5 s',
         'subscribe with no deadline, or publish with a deadline of 0.5 s or less',
     ),
     'incompatible_qos liveliness': (
-        graph(topic('/x', ['/a'], [end('/b', qos=Qos(is_manual=True))])),
+        graph(topic('/x', ['/a'], [end('/b', qos=ObservedQos(is_manual=True))])),
         '/a offers liveliness AUTOMATIC on /x, /b requests MANUAL_BY_TOPIC',
         'subscribe with AUTOMATIC',
     ),
@@ -108,8 +108,8 @@ FAULTS = {
         graph(
             topic(
                 '/x',
-                [end('/a', qos=Qos(lease=2 * NANOSECONDS))],
-                [end('/b', qos=Qos(lease=NANOSECONDS))],
+                [end('/a', qos=ObservedQos(lease=2 * NANOSECONDS))],
+                [end('/b', qos=ObservedQos(lease=NANOSECONDS))],
             )
         ),
         '/a offers liveliness_lease_duration 2 s on /x, /b requests 1 s',
@@ -165,8 +165,13 @@ HEALTHY = {
     'more than is requested': graph(
         topic(
             '/x',
-            [end('/a', qos=Qos(is_transient_local=True, is_manual=True, deadline=1, lease=1))],
-            [end('/b', qos=Qos(is_reliable=False, deadline=2, lease=2))],
+            [
+                end(
+                    '/a',
+                    qos=ObservedQos(is_transient_local=True, is_manual=True, deadline=1, lease=1),
+                )
+            ],
+            [end('/b', qos=ObservedQos(is_reliable=False, deadline=2, lease=2))],
         )
     ),
     'what one node publishes and subscribes to itself': graph(

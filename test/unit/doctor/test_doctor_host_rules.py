@@ -18,7 +18,7 @@ from support.doctor_hosts import (
 
 from amr_description.doctor.host import read_host
 from amr_description.doctor.host.machine import read_machine
-from amr_description.doctor.observations.graph import Graph, GraphNode
+from amr_description.doctor.observations.graph import GraphNode, ObservedGraph
 from amr_description.doctor.observations.machine import Disk
 from amr_description.doctor.observations.processes import SharedMemory
 from amr_description.doctor.rules.environment import domain
@@ -212,7 +212,7 @@ def test_the_severity_tells_a_full_disk_from_one_that_is_nearly_full():
 
 def test_a_stopped_node_that_the_graph_shows_is_not_named_twice():
     seen = host(processes=[replace(SIMULATOR, state='T')])
-    graph = Graph(nodes=(GraphNode(name='/mujoco_sim', process=100, is_stopped=True),))
+    graph = ObservedGraph(nodes=(GraphNode(name='/mujoco_sim', process=100, is_stopped=True),))
     assert 'stopped_process' not in found(replace(seen, graph=graph))
 
 
@@ -227,7 +227,7 @@ def test_a_stopped_node_that_the_graph_shows_is_not_named_twice():
 )
 def test_a_clock_that_nobody_sets_matters_where_hosts_meet(is_right, host_name, expected):
     seen = host(machine={'is_clock_synchronised': is_right})
-    graph = Graph(nodes=(GraphNode(name='/a', host=host_name),))
+    graph = ObservedGraph(nodes=(GraphNode(name='/a', host=host_name),))
     names = {'clock_unsynchronised'}.intersection(found(replace(seen, graph=graph)))
     assert [*names] == expected
 

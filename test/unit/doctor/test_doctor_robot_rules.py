@@ -28,12 +28,15 @@ from support.doctor_robots import (
 )
 
 from amr_description.doctor.observations import Observations
-from amr_description.doctor.observations.controllers import Controller, Controllers
+from amr_description.doctor.observations.controllers import ObservedController, ObservedControllers
 from amr_description.doctor.observations.description import Description, DescriptionTopic
-from amr_description.doctor.observations.sensors import Sensors
-from amr_description.doctor.observations.transforms import Edge, Transforms, Tree
+from amr_description.doctor.observations.sensors import ObservedSensors
+from amr_description.doctor.observations.transforms import Edge, ObservedTransforms, Tree
 from amr_description.doctor.table import examine
-from amr_description.navigation.contract.observations import Observations as Navigation, Topic
+from amr_description.navigation.contract.observations import (
+    ContractObservations as Navigation,
+    ContractTopic,
+)
 
 LESS = replace(JOINTS, names=JOINTS.names[1:], positions=3)
 OTHER = '/static_transform_publisher'
@@ -46,7 +49,7 @@ def edge(parent, child, publisher=OTHER, **fields):
 
 
 def inactive(name, *commands, kind='forward_command_controller/ForwardCommandController'):
-    return Controller(name=name, type_name=kind, state='inactive', commands=commands)
+    return ObservedController(name=name, type_name=kind, state='inactive', commands=commands)
 
 
 def prefixed(prefix):
@@ -83,7 +86,7 @@ FAULTS = {
         components=(replace(SYSTEM, interfaces=('joint_arm/velocity', *SYSTEM.interfaces)),)
     ),
     'controller_manager_missing': robots.robot(
-        controllers=Controllers(spawners=('/spawner_diff_drive_controller',))
+        controllers=ObservedControllers(spawners=('/spawner_diff_drive_controller',))
     ),
     'controller_manager_silent': with_manager(answers=False, controllers=(), components=()),
     'hardware_inactive': with_manager(components=(replace(SYSTEM, state='unconfigured'),)),
@@ -122,7 +125,7 @@ FAULTS = {
     'navigation_contract': robots.robot(
         navigation=Navigation(
             **{
-                name: Topic(f'/{name}')
+                name: ContractTopic(f'/{name}')
                 for name in ('clock', 'tf', 'odom', 'scan', 'cmd_vel', 'map', 'initial_pose')
             }
         )
@@ -137,7 +140,7 @@ HEALTHY = {
         edge('map', 'odom', youngest=-(10**9), oldest=-(10**9))
     ),
     'static transforms that have not come yet': robots.robot(
-        transforms=Transforms(
+        transforms=ObservedTransforms(
             trees=(Tree(edges=robots.EDGES[:1] + robots.EDGES[2:], is_complete=False),)
         )
     ),
@@ -160,7 +163,7 @@ HEALTHY = {
     ),
     'wheels with a frame_prefix that ends without a slash': replace(
         with_sensors(joints=(), scans=(), images=(), imus=()),
-        transforms=Transforms(trees=(Tree(edges=prefixed('r1_')),)),
+        transforms=ObservedTransforms(trees=(Tree(edges=prefixed('r1_')),)),
     ),
     'pictures of another node beside the camera': with_sensors(
         images=(IMAGE, replace(IMAGE, width=64, step=192, size=46080, publishers=('/marks',)))
@@ -266,10 +269,10 @@ def test_what_mends_joints_without_state_makes_up_none_of_a_robot_that_has_some(
 
 def test_stamps_of_a_bag_set_no_clock_of_a_machine():
     old = replace(SCAN, age=10**15, publishers=('/rosbag2_player',))
-    transforms = Transforms(
+    transforms = ObservedTransforms(
         trees=(Tree(edges=(edge('laser', 'x', '/rosbag2_player', youngest=10**15),)),)
     )
-    found = examine(Observations(sensors=Sensors(scans=(old,)), transforms=transforms))
+    found = examine(Observations(sensors=ObservedSensors(scans=(old,)), transforms=transforms))
     assert [each.rule for each in found] == ['tf_stale', 'sensor_stamp']
     for each in found:
         assert 'play the bag with --clock 100' in each.fix

@@ -24,10 +24,11 @@ from support.contract_robots import (
 )
 
 from amr_description.clock import NANOSECONDS
-from amr_description.navigation.contract.findings import Verdict
+from amr_description.navigation.contract.findings import CheckVerdict
 from amr_description.navigation.contract.observations import (
     Body,
-    Endpoint,
+    ContractEndpoint,
+    ContractTopic,
     GRID_TYPE,
     MapSeen,
     ODOMETRY_TYPE,
@@ -35,7 +36,6 @@ from amr_description.navigation.contract.observations import (
     SCAN_TYPE,
     STAMPED_TWIST_TYPE,
     Tick,
-    Topic,
     TWIST_TYPE,
 )
 from amr_description.navigation.contract.report import as_json, as_text, silent_topics
@@ -52,11 +52,11 @@ def finding(name, seen):
 
 
 def both(*publishers, name='/odom', subscriptions=()):
-    return Topic(name, tuple(publishers), tuple(subscriptions))
+    return ContractTopic(name, tuple(publishers), tuple(subscriptions))
 
 
 def test_all_demands_hold_for_a_good_robot():
-    wrong = [found for found in examine(GOOD) if found.verdict is not Verdict.PASSED]
+    wrong = [found for found in examine(GOOD) if found.verdict is not CheckVerdict.PASSED]
     assert wrong == []
 
 
@@ -66,14 +66,14 @@ def test_names_are_unique_and_every_rule_says_whose_demand_it_is():
 
 
 def test_who_takes_stamps_needs_simulated_time_or_follows_the_clock_itself():
-    clock = replace(GOOD.clock, subscriptions=(Endpoint('/drive', CLOCK),))
+    clock = replace(GOOD.clock, subscriptions=(ContractEndpoint('/drive', CLOCK),))
     times = {'/drive': False, '/page': False, '/robot_state_publisher': True}
     found = finding('time.use_sim_time', replace(GOOD, use_sim_time=times, clock=clock))
-    assert found.verdict is Verdict.PASSED
+    assert found.verdict is CheckVerdict.PASSED
     said = 'true in all 1 nodes; not in /drive, /page, which no stamp can harm'
     assert said in found.found
     found = finding('time.use_sim_time', replace(GOOD, use_sim_time=times))
-    assert (found.verdict, found.found) == (Verdict.FAILED, 'use_sim_time is false in /drive')
+    assert (found.verdict, found.found) == (CheckVerdict.FAILED, 'use_sim_time is false in /drive')
 
 
 def in_order(*transforms):
@@ -84,7 +84,7 @@ def shifted(milliseconds):
     return tuple(replace(scan, stamp=scan.stamp + milliseconds * MS) for scan in GOOD.scans)
 
 
-TWO = (Endpoint('/sim', CLOCK), Endpoint('/bag', CLOCK))
+TWO = (ContractEndpoint('/sim', CLOCK), ContractEndpoint('/bag', CLOCK))
 BACK = (*ticks(), Tick(START, WALL + 3 * NANOSECONDS))
 STILL = tuple(replace(tick, time=START) for tick in ticks())
 BEYOND = RangeCounts(hits=300, beyond=60)
@@ -99,7 +99,7 @@ INTERLEAVED = in_order(*moving(sequence=1), *moving(period=30 * MS, sequence=500
 IN_WORLD = tuple(replace(each, linear=(0.5 * 0.5403, 0.5 * 0.8415)) for each in GOOD.odometry)
 BROKEN = [
     ('clock.publishers', {'clock': both(*TWO, name='/clock')}, '2 publishers: /sim, /bag'),
-    ('clock.publishers', {'clock': Topic('/clock')}, 'they stay at 0'),
+    ('clock.publishers', {'clock': ContractTopic('/clock')}, 'they stay at 0'),
     ('clock.rate', {'ticks': ticks(20 * MS)}, '50.0 Hz by /sim'),
     ('clock.rate', {'ticks': STILL}, 'time stands still at 100.000 s'),
     ('clock.rate', {'ticks': ticks()[:1]}, '1 messages in 2 s of /sim'),
@@ -136,7 +136,7 @@ BROKEN = [
     ('tf.at_scans', {'scans': NEVER}, 'at 20 of 20 stamps: Lookup would …'),
     ('odom.qos', {'odom': topic('/odom', ODOMETRY_TYPE, '/drive', is_reliable=False)}, 'best'),
     ('odom.qos', {'odom': topic('/odom', OTHER_TYPE, '/drive')}, f'publishes {OTHER_TYPE}'),
-    ('odom.qos', {'odom': Topic('/odom')}, 'nobody publishes /odom'),
+    ('odom.qos', {'odom': ContractTopic('/odom')}, 'nobody publishes /odom'),
     ('odom.rate', {'odometry': odometry(100 * MS)}, '10.0 Hz of 20 messages by /drive'),
     ('odom.qos', {'odometry': ()}, 'no message on /odom in 2 s, of /drive'),
     ('odom.rate', {'odometry': GOOD.odometry[:1]}, '1 messages'),
@@ -146,7 +146,7 @@ BROKEN = [
     ('odom.twist', {'odometry': IN_WORLD}, 'by twists +0.53 m and +0.83 m'),
     ('odom.covariance', {'odometry': odometry(variances=(1, 1, 0, 1, 1))}, 'above 0: yaw'),
     ('scan.published', {'scan': topic('/scan', OTHER_TYPE, '/sim')}, f'publishes {OTHER_TYPE}'),
-    ('scan.published', {'scan': Topic('/scan'), 'scans': ()}, 'nobody publishes /scan'),
+    ('scan.published', {'scan': ContractTopic('/scan'), 'scans': ()}, 'nobody publishes /scan'),
     ('scan.published', {'scans': ()}, 'no message on /scan in 2 s, of /sim'),
     ('scan.rate', {'scans': scans(25 * MS)}, '40.0 Hz'),
     ('scan.rate', {'scans': scans(500 * MS)}, '2.0 Hz'),
@@ -180,7 +180,7 @@ BROKEN = [
         {'parameters': {'/slam_toolbox': {'max_laser_range': 20.0}}},
         'max_laser_range 20 m in /slam_toolbox, range_max 12 m',
     ),
-    ('cmd_vel.listener', {'cmd_vel': Topic('/cmd_vel')}, 'nobody subscribes to /cmd_vel'),
+    ('cmd_vel.listener', {'cmd_vel': ContractTopic('/cmd_vel')}, 'nobody subscribes to /cmd_vel'),
     ('cmd_vel.listener', {'cmd_vel': topic('/cmd_vel', OTHER_TYPE, '', '/x')}, '/x subscribes'),
     (
         'cmd_vel.type',
@@ -192,9 +192,9 @@ BROKEN = [
         'cmd_vel.type',
         {
             'cmd_vel': both(
-                Endpoint('/smoother', STAMPED_TWIST_TYPE),
+                ContractEndpoint('/smoother', STAMPED_TWIST_TYPE),
                 name='/cmd_vel',
-                subscriptions=[Endpoint('/drive', TWIST_TYPE)],
+                subscriptions=[ContractEndpoint('/drive', TWIST_TYPE)],
             )
         },
         f'/smoother publishes {STAMPED_TWIST_TYPE} on /cmd_vel, but /drive subscribes to',
@@ -238,7 +238,7 @@ BROKEN = [
 )
 def test_a_demand_fails_on_a_robot_that_breaks_it(name, changes, text):
     found = finding(name, good_robot(**changes))
-    assert (found.verdict, text in found.found) == (Verdict.FAILED, True), found
+    assert (found.verdict, text in found.found) == (CheckVerdict.FAILED, True), found
     assert found.advice, 'a failure says what would do'
 
 
@@ -248,26 +248,28 @@ def test_each_demand_is_shown_to_fail():
 
 def test_a_scan_may_come_before_the_tick_of_its_instant():
     early = tuple(replace(scan, received=scan.received - 2 * MS) for scan in GOOD.scans)
-    assert finding('scan.age', good_robot(scans=early)).verdict is Verdict.PASSED
+    assert finding('scan.age', good_robot(scans=early)).verdict is CheckVerdict.PASSED
 
 
 def real_robot(lag, **changes):
     """A robot without a simulation: stamps are of the system clock."""
     ours = tuple(replace(scan, stamp=scan.received - lag) for scan in GOOD.scans)
     nodes = {'/drive': False}
-    return good_robot(clock=Topic('/clock'), ticks=(), use_sim_time=nodes, scans=ours, **changes)
+    return good_robot(
+        clock=ContractTopic('/clock'), ticks=(), use_sim_time=nodes, scans=ours, **changes
+    )
 
 
 def test_a_real_robot_needs_no_clock():
     verdicts = {found.name: found.verdict for found in examine(real_robot(50 * MS))}
-    assert Verdict.FAILED not in verdicts.values()
-    unknown = {name for name, verdict in verdicts.items() if verdict is Verdict.NOT_CHECKED}
+    assert CheckVerdict.FAILED not in verdicts.values()
+    unknown = {name for name, verdict in verdicts.items() if verdict is CheckVerdict.NOT_CHECKED}
     assert unknown == {'clock.publishers', 'clock.rate', 'clock.order', 'time.real_time_factor'}
 
 
 @pytest.mark.parametrize('lag', [500 * MS, -50 * MS])
 def test_the_clocks_of_a_real_robot_and_its_scans(lag):
-    assert finding('scan.age', real_robot(lag)).verdict is Verdict.FAILED
+    assert finding('scan.age', real_robot(lag)).verdict is CheckVerdict.FAILED
 
 
 def test_nodes_with_simulated_time_on_a_real_robot():
@@ -278,8 +280,8 @@ def test_nodes_with_simulated_time_on_a_real_robot():
 @pytest.mark.parametrize(
     ('name', 'changes', 'text'),
     [
-        ('map.published', {'map': Topic('/map')}, 'slam_toolbox or map_server publishes it'),
-        ('map.initial_pose', {'initial_pose': Topic('/initialpose')}, 'amcl'),
+        ('map.published', {'map': ContractTopic('/map')}, 'slam_toolbox or map_server publishes'),
+        ('map.initial_pose', {'initial_pose': ContractTopic('/initialpose')}, 'amcl'),
         ('map.to_odom', {'transforms': (*STATIC, *moving())}, 'amcl, slam_toolbox'),
         ('slam.max_laser_range', {'parameters': {}}, 'slam_toolbox is not there'),
         ('costmap.footprint', {'parameters': {}}, 'reach 0.200 m from base_link'),
@@ -300,7 +302,7 @@ def test_nodes_with_simulated_time_on_a_real_robot():
 )  # fmt: skip
 def test_what_cannot_be_known_is_no_failure(name, changes, text):
     found = finding(name, good_robot(**changes))
-    assert (found.verdict, text in found.found) == (Verdict.NOT_CHECKED, True), found
+    assert (found.verdict, text in found.found) == (CheckVerdict.NOT_CHECKED, True), found
 
 
 def test_a_footprint_of_a_costmap_is_its_own():
@@ -313,7 +315,7 @@ def test_a_footprint_of_a_costmap_is_its_own():
             }
         },
     )
-    assert finding('costmap.footprint', seen).verdict is Verdict.PASSED
+    assert finding('costmap.footprint', seen).verdict is CheckVerdict.PASSED
 
 
 def test_scans_from_before_the_first_transform_and_after_the_last_are_not_judged():
@@ -323,7 +325,7 @@ def test_scans_from_before_the_first_transform_and_after_the_last_are_not_judged
     )
     assert finding('tf.at_scans', seen).found.startswith('known at all 18 stamps')
     later = replace(seen, ended=GOOD.scans[-1].received + 300 * MS)
-    assert finding('tf.at_scans', later).verdict is Verdict.FAILED
+    assert finding('tf.at_scans', later).verdict is CheckVerdict.FAILED
 
 
 def test_misses_get_a_hint_on_inf_is_valid():
@@ -334,7 +336,7 @@ def test_misses_get_a_hint_on_inf_is_valid():
 
 def test_commands_elsewhere_are_named():
     elsewhere = topic('/drive/cmd_vel', STAMPED_TWIST_TYPE, '', '/drive')
-    seen = good_robot(cmd_vel=Topic('/cmd_vel'), other_command_topics=(elsewhere,))
+    seen = good_robot(cmd_vel=ContractTopic('/cmd_vel'), other_command_topics=(elsewhere,))
     found = finding('cmd_vel.listener', seen)
     assert '/drive on /drive/cmd_vel' in found.found
     assert '-r cmd_vel:=/drive/cmd_vel' in found.advice
@@ -378,16 +380,16 @@ def test_json_says_the_same():
 
 def test_nodes_that_do_not_answer_are_named():
     found = finding('time.use_sim_time', good_robot(silent_nodes=('/rviz',)))
-    assert found.verdict is Verdict.PASSED
+    assert found.verdict is CheckVerdict.PASSED
     assert found.found == 'use_sim_time is true in all 2 nodes; no answer of /rviz'
 
 
 def test_a_topic_that_lacks_is_one_failure_and_is_looked_for_elsewhere():
     there = topic('/diff_cont/odom', ODOMETRY_TYPE, '/diff_cont')
     seen = good_robot(
-        odom=Topic('/odom'), odometry=(), elsewhere={ODOMETRY_TYPE: (there,)}, drive=()
+        odom=ContractTopic('/odom'), odometry=(), elsewhere={ODOMETRY_TYPE: (there,)}, drive=()
     )
-    (wrong,) = [found for found in examine(seen) if found.verdict is Verdict.FAILED]
+    (wrong,) = [found for found in examine(seen) if found.verdict is CheckVerdict.FAILED]
     assert wrong.name == 'odom.qos'
     assert wrong.found == 'nobody publishes /odom; /diff_cont on /diff_cont/odom'
     assert wrong.advice.endswith('-r odom:=/diff_cont/odom')

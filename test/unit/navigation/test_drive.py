@@ -12,13 +12,13 @@ from amr_description.maps.grid import OccupancyGrid, OCCUPIED
 from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.drive import (
-    Command,
-    Drive,
-    DriveSettings,
+    DriveStatus,
     FAILED_TO_MAKE_PROGRESS,
     GoalCheckerSettings,
+    NavigationDrive,
+    NavigationDriveSettings,
     PATIENCE_EXCEEDED,
-    Status,
+    WheelCommand,
 )
 from amr_description.navigation.footprint import outline, placed
 from amr_description.navigation.planner import GOAL_OCCUPIED, GOAL_OUTSIDE_MAP, NO_VALID_PATH
@@ -26,7 +26,7 @@ from amr_description.navigation.planner import GOAL_OCCUPIED, GOAL_OUTSIDE_MAP, 
 START = Pose(1.0, 1.0, 0.0)
 CORNERS = np.array([[0.3, 0.17], [0.3, -0.17], [-0.3, -0.17], [-0.3, 0.17]])
 OUTLINE = outline(CORNERS, 0.025)
-SETTINGS = DriveSettings(
+SETTINGS = NavigationDriveSettings(
     goal_checker=GoalCheckerSettings(xy_goal_tolerance=0.05, yaw_goal_tolerance=0.05)
 )
 PERIOD = 0.05
@@ -41,14 +41,14 @@ class Robot:
         self.commands = []
 
     def follow(self, drive, costmap, *, until=300.0, watch=lambda _robot: None):
-        while drive.status is Status.RUNNING and self.now < until:
+        while drive.status is DriveStatus.RUNNING and self.now < until:
             command = drive.step(self.now, self.pose, self.speed, costmap)
             self.commands.append(command)
             self.move(command)
             assert not costmap.is_blocked(placed(OUTLINE, self.pose))
             watch(self)
 
-    def move(self, command: Command):
+    def move(self, command: WheelCommand):
         if self.works:
             linear = limited(self.speed[0], command.linear, 1.0 * PERIOD)
             self.speed = (linear, limited(self.speed[1], command.angular, 2.5 * PERIOD))
@@ -74,7 +74,7 @@ def room(*walls):
 
 
 def drive_to(*goals):
-    return Drive(SETTINGS, OUTLINE, goals)
+    return NavigationDrive(SETTINGS, OUTLINE, goals)
 
 
 @pytest.mark.parametrize('yaw', [0.0, 1.5, 3.1, -2.0])
@@ -82,10 +82,10 @@ def test_a_goal_is_reached_in_place_and_yaw(yaw):
     robot, goal = Robot(), Pose(3.0, 3.5, yaw)
     drive = drive_to(goal)
     robot.follow(drive, room())
-    assert drive.status is Status.SUCCEEDED
+    assert drive.status is DriveStatus.SUCCEEDED
     assert robot.pose.distance(goal) <= 0.05
     assert abs(wrapped(robot.pose.yaw - yaw)) <= 0.06
-    assert robot.commands[-1] == Command()
+    assert robot.commands[-1] == WheelCommand()
     assert drive.recoveries == 0
 
 
@@ -93,7 +93,7 @@ def test_walls_are_driven_around_without_touching():
     robot = Robot(Pose(1.0, 4.0, 0.0))
     drive = drive_to(Pose(4.0, 4.0, 0.0))
     robot.follow(drive, room((slice(25, 100), 50)))
-    assert drive.status is Status.SUCCEEDED
+    assert drive.status is DriveStatus.SUCCEEDED
 
 
 def test_poses_are_passed_in_order():
@@ -107,7 +107,7 @@ def test_poses_are_passed_in_order():
         passed.append(robot.pose)
 
     robot.follow(drive, room(), watch=watch)
-    assert drive.status is Status.SUCCEEDED
+    assert drive.status is DriveStatus.SUCCEEDED
     assert left == {3, 2, 1}
     for corner in corners:
         assert min(corner.distance(each) for each in passed) < 0.1
@@ -116,14 +116,14 @@ def test_poses_are_passed_in_order():
 def test_a_given_path_is_followed():
     path = [Pose(1.0 + 0.05 * k, 1.0 + 0.3 * math.sin(0.05 * k), 0.0) for k in range(60)]
     robot = Robot()
-    drive = Drive(SETTINGS, OUTLINE, [path[-1]], given_path=path)
+    drive = NavigationDrive(SETTINGS, OUTLINE, [path[-1]], given_path=path)
     away = []
     robot.follow(
         drive,
         room(),
         watch=lambda robot: away.append(min(robot.pose.distance(each) for each in path)),
     )
-    assert drive.status is Status.SUCCEEDED
+    assert drive.status is DriveStatus.SUCCEEDED
     assert max(away) < 0.1
     assert drive.plans == 1
 
@@ -143,7 +143,7 @@ def test_what_a_scan_sees_is_driven_around():
 
     robot.follow(drive, costmap, watch=watch)
     assert costmap.seen.any()
-    assert drive.status is Status.SUCCEEDED
+    assert drive.status is DriveStatus.SUCCEEDED
     assert robot.pose.distance(goal) <= 0.05
 
 
@@ -171,28 +171,28 @@ def test_a_goal_in_an_obstacle_fails_at_once():
     robot = Robot()
     drive = drive_to(Pose(2.5, 3.0, 0.0))
     robot.follow(drive, room((slice(50, 70), slice(45, 55))))
-    assert drive.status is Status.FAILED
+    assert drive.status is DriveStatus.FAILED
     assert drive.error.error_code == GOAL_OCCUPIED
-    assert robot.commands == [Command()]
+    assert robot.commands == [WheelCommand()]
 
 
 def test_no_way_is_a_failure_after_all_recoveries():
     robot = Robot()
     drive = drive_to(Pose(4.0, 1.0, 0.0))
     robot.follow(drive, room((slice(0, 100), 50)))
-    assert drive.status is Status.FAILED
+    assert drive.status is DriveStatus.FAILED
     assert drive.error.error_code == NO_VALID_PATH
     assert drive.recoveries == SETTINGS.number_of_retries
     assert any(command.angular > 0.5 for command in robot.commands)  # it has spun …
     assert any(command.linear < 0.0 for command in robot.commands)  # … and backed up
-    assert robot.commands[-1] == Command()
+    assert robot.commands[-1] == WheelCommand()
 
 
 def test_wheels_that_do_not_turn_are_a_lack_of_progress():
     robot = Robot(works=False)
     drive = drive_to(Pose(4.0, 1.0, 0.0))
     robot.follow(drive, room(), until=1000.0)
-    assert drive.status is Status.FAILED
+    assert drive.status is DriveStatus.FAILED
     assert drive.error.error_code == FAILED_TO_MAKE_PROGRESS
     assert 'do its wheels get the commands' in str(drive.error)
 
@@ -200,8 +200,8 @@ def test_wheels_that_do_not_turn_are_a_lack_of_progress():
 def test_a_given_path_into_a_wall_is_not_driven():
     path = [Pose(1.0 + 0.05 * k, 1.0, 0.0) for k in range(60)]
     robot = Robot()
-    drive = Drive(SETTINGS, OUTLINE, [path[-1]], given_path=path)
+    drive = NavigationDrive(SETTINGS, OUTLINE, [path[-1]], given_path=path)
     robot.follow(drive, room((slice(0, 100), 50)))
-    assert drive.status is Status.FAILED
+    assert drive.status is DriveStatus.FAILED
     assert drive.error.error_code == PATIENCE_EXCEEDED
     assert 'would touch' in str(drive.error)

@@ -10,15 +10,15 @@ import pytest
 
 from amr_description.clock import NANOSECONDS
 from amr_description.navigation.ekf import (
-    Control,
+    ControlInput,
     ControlLimits,
     Ekf,
     Measurement,
-    Member,
     NO_THRESHOLD,
     Outcome,
     PROCESS_NOISE,
     STATE_SIZE,
+    StateMember,
     transfer_jacobian,
     transfer_matrix,
     Tuning,
@@ -40,7 +40,7 @@ def at_rest(**state):
     each.is_initialized = True
     each.covariance = np.zeros((STATE_SIZE, STATE_SIZE))
     for name, value in state.items():
-        each.state[Member[name.upper()]] = value
+        each.state[StateMember[name.upper()]] = value
     return each
 
 
@@ -105,13 +105,13 @@ def test_constant_turn_goes_round_and_the_yaw_stays_within_a_turn():
     # Euler's steps: each is along the heading at its begin, by half of 0.4 ms · 1 rad/s too late.
     circle = (math.sin(4.0), 1.0 - math.cos(4.0))
     assert each.state[:2] == pytest.approx(circle, abs=4.0 * 0.5 * 4.0 / steps)
-    assert each.state[Member.YAW] == pytest.approx(4.0 - 2 * math.pi)
+    assert each.state[StateMember.YAW] == pytest.approx(4.0 - 2 * math.pi)
 
 
 def test_acceleration_is_integrated_twice():
     each = at_rest(ax=2.0)
     each.predict(seconds(3.0))
-    assert each.state[[Member.X, Member.VX]] == pytest.approx((9.0, 6.0))
+    assert each.state[[StateMember.X, StateMember.VX]] == pytest.approx((9.0, 6.0))
 
 
 def test_covariance_grows_by_the_process_noise():
@@ -134,7 +134,7 @@ def test_dynamic_process_noise_follows_the_speed():
     each = Ekf(replace(Tuning.default(), dynamic_process_noise=True))
     each.is_initialized = True
     each.covariance[:] = 0.0
-    each.state[[Member.VX, Member.VYAW]] = (3.0, 4.0)
+    each.state[[StateMember.VX, StateMember.VYAW]] = (3.0, 4.0)
     each.predict(seconds(1.0))
     # 5² of the velocities; at a yaw of 0 the covariance of y has that of v · dt · 0 only.
     assert each.covariance[0, 0] == pytest.approx(25.0 * 0.05)
@@ -142,78 +142,90 @@ def test_dynamic_process_noise_follows_the_speed():
 
 def test_one_measurement_is_weighed_as_a_scalar_filter_does():
     each = at_rest(vx=1.0)
-    each.covariance[Member.VX, Member.VX] = 0.3
-    each.covariance[Member.X, Member.X] = 0.2
-    each.covariance[Member.X, Member.VX] = each.covariance[Member.VX, Member.X] = 0.1
-    outcome = each.correct(measured(0.0, {Member.VX: 2.0}, {Member.VX: 0.6}))
+    each.covariance[StateMember.VX, StateMember.VX] = 0.3
+    each.covariance[StateMember.X, StateMember.X] = 0.2
+    each.covariance[StateMember.X, StateMember.VX] = each.covariance[
+        StateMember.VX, StateMember.X
+    ] = 0.1
+    outcome = each.correct(measured(0.0, {StateMember.VX: 2.0}, {StateMember.VX: 0.6}))
     assert outcome is Outcome.FUSED
     gain = 0.3 / (0.3 + 0.6)
-    assert each.state[Member.VX] == pytest.approx(1.0 + gain)
-    assert each.covariance[Member.VX, Member.VX] == pytest.approx((1 - gain) * 0.3)
+    assert each.state[StateMember.VX] == pytest.approx(1.0 + gain)
+    assert each.covariance[StateMember.VX, StateMember.VX] == pytest.approx((1 - gain) * 0.3)
     # What is correlated with it is corrected, too.
-    assert each.state[Member.X] == pytest.approx(0.1 / 0.9)
-    assert each.covariance[Member.X, Member.X] == pytest.approx(0.2 - 0.1**2 / 0.9)
+    assert each.state[StateMember.X] == pytest.approx(0.1 / 0.9)
+    assert each.covariance[StateMember.X, StateMember.X] == pytest.approx(0.2 - 0.1**2 / 0.9)
 
 
 def test_many_measurements_weigh_as_their_inverse_variances():
     each = at_rest()
-    each.covariance[Member.YAW, Member.YAW] = 1e6
+    each.covariance[StateMember.YAW, StateMember.YAW] = 1e6
     readings = [(0.3, 0.01), (0.5, 0.04), (0.1, 0.02)]
     for value, variance in readings:
-        each.correct(measured(0.0, {Member.YAW: value}, {Member.YAW: variance}))
+        each.correct(measured(0.0, {StateMember.YAW: value}, {StateMember.YAW: variance}))
     weights = [1 / variance for _, variance in readings]
     mean = sum(w * value for w, (value, _) in zip(weights, readings, strict=True)) / sum(weights)
-    assert each.state[Member.YAW] == pytest.approx(mean, rel=1e-6)
-    assert each.covariance[Member.YAW, Member.YAW] == pytest.approx(1 / sum(weights), rel=1e-6)
+    assert each.state[StateMember.YAW] == pytest.approx(mean, rel=1e-6)
+    assert each.covariance[StateMember.YAW, StateMember.YAW] == pytest.approx(
+        1 / sum(weights), rel=1e-6
+    )
 
 
 def test_a_yaw_on_the_other_side_of_the_back_is_near():
     each = at_rest(yaw=3.1)
-    each.covariance[Member.YAW, Member.YAW] = 0.1
-    each.correct(measured(0.0, {Member.YAW: -3.1}, {Member.YAW: 0.1}))
+    each.covariance[StateMember.YAW, StateMember.YAW] = 0.1
+    each.correct(measured(0.0, {StateMember.YAW: -3.1}, {StateMember.YAW: 0.1}))
     # Half of the way between 3.1 and 2π - 3.1, which is π.
-    assert abs(each.state[Member.YAW]) == pytest.approx(math.pi)
+    assert abs(each.state[StateMember.YAW]) == pytest.approx(math.pi)
 
 
 def test_what_is_too_far_is_rejected():
     for value, outcome in ((2.99, Outcome.FUSED), (3.01, Outcome.REJECTED)):
         each = at_rest()
-        each.covariance[Member.VX, Member.VX] = 0.75
+        each.covariance[StateMember.VX, StateMember.VX] = 0.75
         # The innovation has the variance 0.75 + 0.25, so that the distance is the value.
-        reading = measured(0.0, {Member.VX: value}, {Member.VX: 0.25}, threshold=3.0)
+        reading = measured(0.0, {StateMember.VX: value}, {StateMember.VX: 0.25}, threshold=3.0)
         assert each.correct(reading) is outcome
-        assert bool(each.state[Member.VX]) is (outcome is Outcome.FUSED)
+        assert bool(each.state[StateMember.VX]) is (outcome is Outcome.FUSED)
 
 
 def test_the_first_measurement_is_taken_as_it_is():
     each = Ekf()
-    each.process(measured(7.0, {Member.X: 3.0, Member.VX: 2.0}, {Member.X: 0.4, Member.VX: 0.1}))
+    each.process(
+        measured(
+            7.0,
+            {StateMember.X: 3.0, StateMember.VX: 2.0},
+            {StateMember.X: 0.4, StateMember.VX: 0.1},
+        )
+    )
     assert each.time == seconds(7.0)
-    assert (each.state[Member.X], each.state[Member.VX]) == (3.0, 2.0)
-    assert each.covariance[Member.X, Member.X] == 0.4
-    assert each.covariance[Member.YAW, Member.YAW] == 1e-9
+    assert (each.state[StateMember.X], each.state[StateMember.VX]) == (3.0, 2.0)
+    assert each.covariance[StateMember.X, StateMember.X] == 0.4
+    assert each.covariance[StateMember.YAW, StateMember.YAW] == 1e-9
 
 
 def test_a_late_measurement_corrects_without_a_prediction():
     each = at_rest(vx=1.0)
-    each.covariance[Member.VX, Member.VX] = 1.0
+    each.covariance[StateMember.VX, StateMember.VX] = 1.0
     each.predict(seconds(1.0))
-    x, variance = each.state[Member.X], each.covariance[Member.VX, Member.VX]
-    each.process(measured(0.5, {Member.VX: 1.0}, {Member.VX: 1.0}))
+    x, variance = each.state[StateMember.X], each.covariance[StateMember.VX, StateMember.VX]
+    each.process(measured(0.5, {StateMember.VX: 1.0}, {StateMember.VX: 1.0}))
     assert each.time == seconds(1.0)
-    assert each.state[Member.X] == x
-    assert each.covariance[Member.VX, Member.VX] == pytest.approx(variance / (variance + 1.0))
+    assert each.state[StateMember.X] == x
+    assert each.covariance[StateMember.VX, StateMember.VX] == pytest.approx(
+        variance / (variance + 1.0)
+    )
 
 
 @pytest.mark.parametrize('bad', [math.nan, math.inf])
 def test_what_is_no_number_is_left_out(bad):
     each = at_rest()
     each.covariance = np.eye(STATE_SIZE)
-    values = {Member.X: bad, Member.Y: 2.0}
-    reading = measured(0.0, values, {Member.X: 1.0, Member.Y: 1.0})
+    values = {StateMember.X: bad, StateMember.Y: 2.0}
+    reading = measured(0.0, values, {StateMember.X: 1.0, StateMember.Y: 1.0})
     assert each.correct(reading) is Outcome.FUSED
-    assert (each.state[Member.X], each.state[Member.Y]) == pytest.approx((0.0, 1.0))
-    reading = measured(0.0, {Member.X: 1.0}, {Member.X: bad})
+    assert (each.state[StateMember.X], each.state[StateMember.Y]) == pytest.approx((0.0, 1.0))
+    reading = measured(0.0, {StateMember.X: 1.0}, {StateMember.X: bad})
     assert each.correct(reading) is Outcome.UNUSABLE
     assert np.isfinite(each.state).all()
 
@@ -221,9 +233,9 @@ def test_what_is_no_number_is_left_out(bad):
 def test_variances_of_zero_and_below_are_mended():
     for variance, expected in ((-0.5, 0.5), (0.0, 1e-9)):
         each = at_rest()
-        each.covariance[Member.X, Member.X] = 1.0
-        each.correct(measured(0.0, {Member.X: 1.0}, {Member.X: variance}))
-        assert each.state[Member.X] == pytest.approx(1.0 / (1.0 + expected), abs=1e-12)
+        each.covariance[StateMember.X, StateMember.X] = 1.0
+        each.correct(measured(0.0, {StateMember.X: 1.0}, {StateMember.X: variance}))
+        assert each.state[StateMember.X] == pytest.approx(1.0 / (1.0 + expected), abs=1e-12)
 
 
 def limits(**changed):
@@ -249,20 +261,20 @@ def limits(**changed):
 )
 def test_a_command_accelerates_as_its_gains_and_limits_say(velocity, wanted, acceleration):
     each = Ekf(replace(Tuning.default(), control=limits()))
-    each.state[Member.VX] = velocity
-    each.control = Control(np.array([wanted, 0, 0, 0, 0, 0.1]), 0)
+    each.state[StateMember.VX] = velocity
+    each.control = ControlInput(np.array([wanted, 0, 0, 0, 0, 0.1]), 0)
     each.predict(seconds(0.1))
-    assert each.state[Member.AX] == pytest.approx(acceleration)
-    assert each.state[Member.VX] == pytest.approx(velocity + 0.1 * acceleration)
-    assert each.state[Member.VYAW] == pytest.approx(0.1 * 0.8 * 0.1)
+    assert each.state[StateMember.AX] == pytest.approx(acceleration)
+    assert each.state[StateMember.VX] == pytest.approx(velocity + 0.1 * acceleration)
+    assert each.state[StateMember.VYAW] == pytest.approx(0.1 * 0.8 * 0.1)
 
 
 def test_an_old_command_is_one_to_rest():
     each = Ekf(replace(Tuning.default(), control=limits()))
-    each.state[Member.VX] = 1.0
-    each.control = Control(np.ones(6), 0)
+    each.state[StateMember.VX] = 1.0
+    each.control = ControlInput(np.ones(6), 0)
     each.predict(seconds(0.2))
-    assert each.state[Member.AX] == pytest.approx(-0.5)
+    assert each.state[StateMember.AX] == pytest.approx(-0.5)
 
 
 def test_reset_begins_as_tuned():
@@ -272,7 +284,7 @@ def test_reset_begins_as_tuned():
         initial_covariance=np.eye(15) * 0.5,
     )
     each = Ekf(tuning)
-    each.process(measured(1.0, {Member.X: 1.0}, {Member.X: 1.0}))
+    each.process(measured(1.0, {StateMember.X: 1.0}, {StateMember.X: 1.0}))
     each.predict(seconds(2.0))
     each.reset()
     assert not each.is_initialized

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from amr_description.clock import NANOSECONDS
-from amr_description.navigation.ekf import Measurement, Member, Outcome, STATE_SIZE, Tuning
+from amr_description.navigation.ekf import Measurement, Outcome, STATE_SIZE, StateMember, Tuning
 from amr_description.navigation.ekf_estimator import Estimator, Timing
 
 TIMEOUT = 100_000_000
 DRIVE = [
-    (0.00, Member.VX, 0.5), (0.02, Member.VYAW, 0.3), (0.04, Member.VX, 0.6),
-    (0.05, Member.YAW, 0.01), (0.06, Member.VYAW, 0.2), (0.08, Member.VX, 0.5),
+    (0.00, StateMember.VX, 0.5), (0.02, StateMember.VYAW, 0.3), (0.04, StateMember.VX, 0.6),
+    (0.05, StateMember.YAW, 0.01), (0.06, StateMember.VYAW, 0.2), (0.08, StateMember.VX, 0.5),
 ]  # fmt: skip
 
 
@@ -96,28 +96,28 @@ def test_beyond_its_history_it_goes_back_to_the_oldest_state():
 
 def test_without_measurements_it_predicts_after_the_timeout():
     each = in_order()
-    x = each.filter.state[Member.X]
+    x = each.filter.state[StateMember.X]
     each.integrate(ns(0.08) + TIMEOUT - 1)
     assert each.filter.time == ns(0.08)
     each.integrate(ns(0.08) + TIMEOUT)
     assert each.filter.time == ns(0.08) + TIMEOUT
-    speed = each.filter.state[Member.VX]
-    assert each.filter.state[Member.X] == pytest.approx(x + 0.1 * speed, rel=1e-3)
+    speed = each.filter.state[StateMember.VX]
+    assert each.filter.state[StateMember.X] == pytest.approx(x + 0.1 * speed, rel=1e-3)
 
 
 def test_it_predicts_to_the_present_if_that_is_asked():
     each = estimator(always=True)
-    each.add(measurement(0.0, Member.VX, 1.0))
+    each.add(measurement(0.0, StateMember.VX, 1.0))
     each.integrate(ns(0.05))
     assert each.filter.time == ns(0.05)
-    assert each.filter.state[Member.X] == pytest.approx(0.05)
+    assert each.filter.state[StateMember.X] == pytest.approx(0.05)
 
 
 def test_nothing_is_predicted_before_the_first_measurement_or_back_in_time():
     each = estimator(always=True)
     each.integrate(ns(1.0))
     assert (each.filter.time, each.filter.is_initialized) == (0, False)
-    each.add(measurement(1.0, Member.VX, 1.0))
+    each.add(measurement(1.0, StateMember.VX, 1.0))
     each.integrate(ns(1.0))
     each.integrate(ns(0.5))
     assert each.filter.time == ns(1.0)
@@ -126,18 +126,18 @@ def test_nothing_is_predicted_before_the_first_measurement_or_back_in_time():
 def test_the_angular_acceleration_is_the_change_of_the_rate():
     each = estimator()
     for time, rate in ((0.0, 0.0), (0.1, 0.2)):
-        each.add(measurement(time, Member.VYAW, rate, variance=1e-9))
+        each.add(measurement(time, StateMember.VYAW, rate, variance=1e-9))
         each.integrate(ns(time))
     assert each.angular_acceleration[2] == pytest.approx(2.0, rel=1e-3)
-    variance = each.filter.covariance[Member.VYAW, Member.VYAW]
+    variance = each.filter.covariance[StateMember.VYAW, StateMember.VYAW]
     assert each.angular_covariance[2, 2] == pytest.approx(2 * variance / 0.1**2)
 
 
 def test_a_set_state_forgets_what_was_before():
     each = late(history=1.0)
-    each.add(measurement(0.07, Member.VX, 9.0))
+    each.add(measurement(0.07, StateMember.VX, 9.0))
     state = np.zeros(STATE_SIZE)
-    state[Member.X] = 4.0
+    state[StateMember.X] = 4.0
     each.set_state(state, np.eye(STATE_SIZE) * 1e-6, ns(0.09))
     each.integrate(ns(0.09))
     assert np.array_equal(each.filter.state, state)

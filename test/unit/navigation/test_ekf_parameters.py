@@ -8,7 +8,7 @@ from support.paths import ROOT
 import yaml
 
 from amr_description.errors import ParameterError
-from amr_description.navigation.ekf import Member, NO_THRESHOLD, PROCESS_NOISE
+from amr_description.navigation.ekf import NO_THRESHOLD, PROCESS_NOISE, StateMember
 from amr_description.navigation.ekf_diagnostics import FilterDiagnostics, Level, RateDiagnostics
 from amr_description.navigation.ekf_parameters import read_parameters
 
@@ -267,7 +267,7 @@ def test_diagnostics_tell_the_rate(messages, message):
 
 
 def test_members_are_in_the_order_of_the_configuration():
-    assert [member.name.lower() for member in Member] == [
+    assert [member.name.lower() for member in StateMember] == [
         'x', 'y', 'z', 'roll', 'pitch', 'yaw', 'vx', 'vy', 'vz', 'vroll', 'vpitch', 'vyaw',
         'ax', 'ay', 'az',
     ]  # fmt: skip

@@ -23,7 +23,7 @@ from amr_description.sim.cameras.lens import (
 )
 from amr_description.sim.cameras.pictures import encoded, jpeg, PointMaker, with_noise
 from amr_description.sim.cameras.ray_renderer import RayRenderer
-from amr_description.sim.cameras.renderer import BACKGROUND, Picture
+from amr_description.sim.cameras.renderer import BACKGROUND, RenderedPicture
 from amr_description.sim.sensor_schedule import noise_generator
 
 angles = st.floats(-3.0, 3.0)
@@ -248,7 +248,7 @@ def test_noise_follows_from_seed_sensor_and_time_alone():
 
     def noisy(seed, sensor, time):
         generator = noise_generator(seed, sensor, time)
-        return with_noise(Picture(color.copy(), None), noise, generator).color
+        return with_noise(RenderedPicture(color.copy(), None), noise, generator).color
 
     first = noisy([1], 'camera', 5)
     assert (first == noisy([1], 'camera', 5)).all()
@@ -256,7 +256,9 @@ def test_noise_follows_from_seed_sensor_and_time_alone():
         assert (first != noisy(*other)).any()
     assert first.mean() == pytest.approx(125.5, abs=1.0)
     assert first[..., 0].std() == pytest.approx(5.1, rel=0.1)
-    found = with_noise(Picture(None, depth), noise, noise_generator([1], 'camera', 5)).depth
+    found = with_noise(
+        RenderedPicture(None, depth), noise, noise_generator([1], 'camera', 5)
+    ).depth
     assert found.mean() == pytest.approx(2.1, abs=1e-3)
     assert found.std() == pytest.approx(0.02, rel=0.1)
 

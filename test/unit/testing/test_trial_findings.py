@@ -16,18 +16,18 @@ from amr_description.testing.trial.driving import travel
 from amr_description.testing.trial.findings import (
     Check,
     ControllerFinding,
-    Findings,
     from_json,
     MotionResult,
     RestResult,
     row,
     table,
     to_json,
+    TrialFindings,
 )
 from amr_description.testing.trial.moving import offset_of
 from amr_description.testing.trial.one_robot import cause_of, check_of, explanations, unrest
 
-FOUND = Findings(
+FOUND = TrialFindings(
     'cart',
     '/cart.urdf',
     check=Check(1, ['no mass'], ['a', 'b']),
@@ -52,11 +52,11 @@ FOUND = Findings(
 def test_a_row_tells_every_stage():
     motions = 'forward 99%; !turn 50%; !trajectory'
     assert row(FOUND) == ('cart', '1E 2W', '2.0 s', 'no', '1/2', motions, '5', '10', '3.2')
-    assert row(Findings('a', 'a'))[1:6] == ('0E 0W', 'refused', '-', '0/0', '-')
+    assert row(TrialFindings('a', 'a'))[1:6] == ('0E 0W', 'refused', '-', '0/0', '-')
 
 
 def test_the_table_has_faults_and_the_first_warnings():
-    lines = table([FOUND, Findings('arm', 'arm')]).splitlines()
+    lines = table([FOUND, TrialFindings('arm', 'arm')]).splitlines()
     assert lines[1].endswith('FAIL')
     assert lines[2:7] == ['    fault: a: turn', *['    WARN: x'] * 3, '    … and 2 lines more']
     assert lines[7].split()[:3] == ['arm', '0E', '0W']

@@ -40,9 +40,9 @@ from amr_description.model.urdf import parse
 from amr_description.navigation.contract.frame_rules import TF_TIMEOUT
 from amr_description.navigation.contract.observations import (
     Body,
-    Frames,
+    ContractFrames,
+    ContractObservations,
     MapSeen,
-    Observations,
     ODOMETRY_TYPE,
     OdometrySeen,
     Phase,
@@ -138,7 +138,7 @@ _Info: TypeAlias = dict[str, int]
 class Collector:
     """Listens from its making on; whoever has it spins the node."""
 
-    def __init__(self, node: Node, frames: Frames, *, is_stamped: bool) -> None:
+    def __init__(self, node: Node, frames: ContractFrames, *, is_stamped: bool) -> None:
         """
         Subscribe.
 
@@ -217,14 +217,14 @@ class Collector:
         settled = self._scans[SCANS - 1].received + TF_TIMEOUT < self._ended
         return [] if settled else ['transforms of the last scan']
 
-    def observations(self) -> Observations:
+    def observations(self) -> ContractObservations:
         """Return what was seen until now."""
         node = self.node
         transforms = sorted((*self._static, *self._transforms), key=lambda each: each.received)
         clock = topic_of(node, CLOCK_TOPIC)
         commands = topic_of(node, COMMAND_TOPIC)
         values: dict[str, Any] = {'not_driven': self.not_driven} if self.not_driven else {}
-        return Observations(
+        return ContractObservations(
             clock=clock,
             tf=topic_of(node, TF_TOPIC),
             odom=topic_of(node, ODOM_TOPIC),

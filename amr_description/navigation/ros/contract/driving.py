@@ -21,10 +21,10 @@ from amr_description.navigation.contract.command_rules import (
     STANDING,
 )
 from amr_description.navigation.contract.observations import (
+    ContractTopic,
     OdometrySeen,
     Phase,
     STAMPED_TWIST_TYPE,
-    Topic,
     TWIST_TYPE,
 )
 from amr_description.navigation.contract.series import names_of
@@ -71,7 +71,7 @@ class RivalWatch:
             _refuse_rivals(topic)
 
 
-def _refuse_rivals(topic: Topic) -> None:
+def _refuse_rivals(topic: ContractTopic) -> None:
     if topic.publishers:
         raise UsageError(
             f'--drive: {names_of(topic.publishers)} publishes commands on {topic.name}, and '
@@ -79,7 +79,7 @@ def _refuse_rivals(topic: Topic) -> None:
         )
 
 
-class Drive:
+class ContractDrive:
     """Drives a robot ahead and on the spot; makes a publisher, so one at a time."""
 
     def __init__(self, collector: Collector, check: Callable[[], object]) -> None:

@@ -13,7 +13,7 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.task import Future
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from amr_description.navigation.contract.observations import Endpoint, Topic
+from amr_description.navigation.contract.observations import ContractEndpoint, ContractTopic
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.ros.type_mismatch import other_topics
@@ -33,24 +33,24 @@ _SPECIAL = {
 """What is asked besides, by the last part of a node's name."""
 
 
-def topic_of(node: Node, name: str) -> Topic:
+def topic_of(node: Node, name: str) -> ContractTopic:
     """Return who publishes and who subscribes to a topic, ``node`` left out; before remapping."""
     own = node.get_fully_qualified_name()
-    return Topic(
+    return ContractTopic(
         node.resolve_topic_name(name),
         _endpoints(node.get_publishers_info_by_topic(name), own),
         _endpoints(node.get_subscriptions_info_by_topic(name), own),
     )
 
 
-def command_topics(node: Node, but: str) -> tuple[Topic, ...]:
+def command_topics(node: Node, but: str) -> tuple[ContractTopic, ...]:
     """Return the topics on which somebody subscribes to velocities, all but one."""
     return tuple(topic_of(node, name) for name in sorted(other_topics(node)) if name != but)
 
 
-def topics_elsewhere(node: Node, *types: str) -> dict[str, tuple[Topic, ...]]:
+def topics_elsewhere(node: Node, *types: str) -> dict[str, tuple[ContractTopic, ...]]:
     """Return the published topics of some types, but those of the truth, by type."""
-    found: dict[str, list[Topic]] = {}
+    found: dict[str, list[ContractTopic]] = {}
     for name, kinds in sorted(node.get_topic_names_and_types()):
         topic = topic_of(node, name) if {*kinds} & {*types} else None
         if topic is not None and topic.publishers and 'ground_truth' not in name:
@@ -58,9 +58,9 @@ def topics_elsewhere(node: Node, *types: str) -> dict[str, tuple[Topic, ...]]:
     return {kind: tuple(topics) for kind, topics in found.items()}
 
 
-def _endpoints(found: Iterable[TopicEndpointInfo], own: str) -> tuple[Endpoint, ...]:
+def _endpoints(found: Iterable[TopicEndpointInfo], own: str) -> tuple[ContractEndpoint, ...]:
     endpoints = [
-        Endpoint(
+        ContractEndpoint(
             endpoint_node(each) or UNNAMED,
             each.topic_type,
             each.qos_profile.reliability is not ReliabilityPolicy.BEST_EFFORT,
@@ -120,7 +120,7 @@ class ParameterReader:
     def _unanswered(self) -> set[str]:
         return self._unasked | {name for name, _, _ in self._pending}
 
-    def use_sim_time(self, but: Sequence[Endpoint]) -> dict[str, bool]:
+    def use_sim_time(self, but: Sequence[ContractEndpoint]) -> dict[str, bool]:
         """Return the values, but those of the nodes that have these publishers of ``/clock``."""
         self._take()
         left_out = {each.node for each in but}
