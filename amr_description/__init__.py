@@ -33,6 +33,8 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``testing/``            a simulation in lock-step, for tests of users
 
 ``errors.py``           every error that is raised on purpose
+``log.py``              how a component logs; lines that come again and again
+``plugin_errors.py``    exceptions of third-party controllers and components, as log lines
 ``parameters.py``       tables of parameters: type, default, unit, bounds
 ``former_parameters.py`` parameters of earlier releases, and what is made of them
 ``limited_child.py``    programs with limits of time and memory

@@ -27,8 +27,6 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 
 ``manager_parameters.py``    the parameters of a manager, and those of every controller
 
-``plugin_errors.py``         exceptions of third-party controllers and components, as log lines
-``throttle.py``              lines of log that come again and again
 ``snapshot.py``              the state of a manager, for readers on other threads
 ``statistics.py``            running mean and deviation of execution times and rates
 ``introspection.py``         the values of a manager that are published, and their names

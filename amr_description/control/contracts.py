@@ -17,7 +17,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import enum
-from typing import Any, ClassVar, Generic, Protocol, TYPE_CHECKING, TypeVar
+from typing import Any, ClassVar, Generic, TYPE_CHECKING, TypeVar
 
 from amr_description.control.interfaces import (
     CommandInterface,
@@ -26,6 +26,7 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.world import World
+from amr_description.log import Log as Log, null_log as null_log, Severity as Severity
 
 if TYPE_CHECKING:
     from amr_description.model.ros2_control_tag import HardwareInfo
@@ -36,42 +37,6 @@ Request = TypeVar('Request')
 Response = TypeVar('Response')
 Feedback = TypeVar('Feedback')
 Result = TypeVar('Result')
-
-
-# --- Log -----------------------------------------------------------------------------------------
-
-
-class Severity(enum.IntEnum):
-    """Severities with rcutils' numbers."""
-
-    DEBUG = 10
-    INFO = 20
-    WARN = 30
-    ERROR = 40
-    FATAL = 50
-
-
-class Log(Protocol):
-    """
-    The logger of a component, which has no other way to log.
-
-    The calling thread only stores the line; another one emits it, by the component's logger.
-    """
-
-    def __call__(self, severity: Severity, text: str, *, throttle: float = 0.0) -> None:
-        """
-        Log ``text``.
-
-        Args:
-            severity: of the line.
-            text: one line.
-            throttle: least time between two lines of the same format, s; ``math.inf``: log once.
-                Lines that are equal up to their first digit have the same format.
-        """
-
-
-def null_log(severity: Severity, text: str, *, throttle: float = 0.0) -> None:
-    """Log nothing."""
 
 
 # --- Ports: the topics, services and actions of a controller -------------------------------------

@@ -14,7 +14,7 @@ import math
 from typing import Any
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Controller, Log, Severity
+from amr_description.control.contracts import Controller
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.cycle_plan import (
     CyclePlan,
@@ -29,7 +29,6 @@ from amr_description.control.loaded_controller import (
     LoadedController,
     TransitionCallback,
 )
-from amr_description.control.plugin_errors import describe
 from amr_description.control.resource_manager import (
     ReadFailure,
     ResourceManager,
@@ -45,6 +44,8 @@ from amr_description.control.switching import (
     SwitchPlanner,
 )
 from amr_description.errors import ControllerError
+from amr_description.log import Log, Severity
+from amr_description.plugin_errors import describe
 
 _ACTIVE = LifecycleState.ACTIVE  # looked up in each cycle
 _MICROSECOND = 1000

@@ -10,13 +10,13 @@ it commands, which would be left without commands.
 from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.loaded_controller import LoadedController
-from amr_description.control.plugin_errors import error_line, log_traceback
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import names_of, Strictness, SwitchExecution, SwitchPlanner
 from amr_description.errors import AmrError, ControllerError
+from amr_description.log import Log, Severity
+from amr_description.plugin_errors import error_line, log_traceback
 
 
 class FailureHandler:

@@ -17,7 +17,6 @@ from dataclasses import dataclass
 import math
 import sys
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import (
     ACCELERATION,
     CommandInterface,
@@ -29,6 +28,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.loaded_component import LoadedComponent
 from amr_description.errors import HardwareError
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import ComponentInfo, InterfaceInfo
 from amr_description.model.robot import Joint, JointType, Robot
 

@@ -6,12 +6,13 @@ from collections.abc import Iterable
 from typing import TypeVar
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.contracts import HardwareComponent
 from amr_description.control.interfaces import Handle, LifecycleState
-from amr_description.control.plugin_errors import describe, log_traceback
 from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
 from amr_description.errors import HardwareError
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareType
+from amr_description.plugin_errors import describe, log_traceback
 
 H = TypeVar('H', bound=Handle)
 

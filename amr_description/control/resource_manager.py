@@ -18,7 +18,7 @@ import math
 from typing import Any, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import HardwareComponent, Log, Severity, World
+from amr_description.control.contracts import HardwareComponent, World
 from amr_description.control.interfaces import (
     Claim,
     CommandInterface,
@@ -33,7 +33,6 @@ from amr_description.control.joint_limits import (
     value_at_rest,
 )
 from amr_description.control.loaded_component import by_name, LoadedComponent
-from amr_description.control.plugin_errors import describe
 from amr_description.control.statistics import Stopwatch, zero_clock
 from amr_description.errors import (
     HardwareDeactivationError,
@@ -41,6 +40,8 @@ from amr_description.errors import (
     HardwareStartError,
     InterfaceError,
 )
+from amr_description.log import Log, Severity
+from amr_description.plugin_errors import describe
 
 if TYPE_CHECKING:
     from amr_description.model.hardware_info import HardwareInfo

@@ -16,13 +16,13 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 import enum
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.loaded_controller import LoadedController
-from amr_description.control.plugin_errors import describe, log_traceback
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import ControllerError, HardwareError
+from amr_description.log import Log, Severity
+from amr_description.plugin_errors import describe, log_traceback
 
 NOTHING_TO_SWITCH = (
     'After checking the controllers, no controllers need to be activated or deactivated.'

@@ -5,13 +5,14 @@
 from collections.abc import Sequence
 from functools import partial
 
-from amr_description.control.contracts import Log, Severity, World
+from amr_description.control.contracts import World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.statistics import Stopwatch, unmeasured
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.in_simulator import class_in_simulator
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 

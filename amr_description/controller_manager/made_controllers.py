@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A controller from its class and its parameters, wherever these are kept."""
 
-from amr_description.control.contracts import Controller, ControllerContext, Log, Severity
+from amr_description.control.contracts import Controller, ControllerContext
 from amr_description.control.manager_parameters import CommonParameters
 from amr_description.controller_manager.parameter_store import ParameterStore
+from amr_description.log import Log, Severity
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 

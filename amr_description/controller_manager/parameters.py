@@ -12,7 +12,6 @@ from contextlib import contextmanager
 import os
 from pathlib import Path
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ManagerDefaults
 from amr_description.control.manager_parameters import ControllerEntry, ManagerTable
 from amr_description.control.switching import Strictness
@@ -25,6 +24,7 @@ from amr_description.controllers.parameter_faults import (
 )
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Log, Severity
 from amr_description.model.findings import Finding
 from amr_description.parameter_files import read_parameter_file
 from amr_description.ros_arguments import files_in, inherited, ros_arguments

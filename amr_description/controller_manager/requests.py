@@ -15,17 +15,18 @@ import importlib
 import sys
 from typing import Any, Protocol, TypeVar
 
-from amr_description.control.contracts import Controller, Log, Severity
+from amr_description.control.contracts import Controller
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.loaded_controller import TransitionCallback
 from amr_description.control.manager_parameters import ControllerEntry
-from amr_description.control.plugin_errors import describe
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import AmrError, ControllerError
+from amr_description.log import Log, Severity
 from amr_description.model.robot import Robot
+from amr_description.plugin_errors import describe
 
 Result = TypeVar('Result')
 

@@ -11,7 +11,6 @@ import sys
 from typing import Protocol
 
 from amr_description.colors import BLUE, colored, CYAN, GREEN, YELLOW
-from amr_description.control.contracts import Log, Severity
 from amr_description.controller_manager.spawner_arguments import ControllerPlan, SpawnOptions
 from amr_description.controller_manager.spawner_files import (
     controller_entries,
@@ -19,6 +18,7 @@ from amr_description.controller_manager.spawner_files import (
     not_found,
 )
 from amr_description.errors import ControllerError, NoAnswerError, ParameterError
+from amr_description.log import Log, Severity
 from amr_description.text import did_you_mean
 
 _NO_TYPE = 'no type is set for'

@@ -13,8 +13,9 @@ from operator import attrgetter
 from typing import Any, TypeAlias
 
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
-from amr_description.control.contracts import Input, Log, Severity
+from amr_description.control.contracts import Input
 from amr_description.control.samples import TwistSample
+from amr_description.log import Log, Severity
 
 FOREIGN_CLOCK = 60 * NANOSECONDS
 """

@@ -34,13 +34,7 @@ import math
 from typing import Any
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import (
-    ControllerContext,
-    Input,
-    Output,
-    Port,
-    Severity,
-)
+from amr_description.control.contracts import ControllerContext, Input, Output, Port
 from amr_description.control.interfaces import (
     CommandInterface,
     Handle,
@@ -61,6 +55,7 @@ from amr_description.controllers.wheeled_drive import (
     WheeledDrive,
 )
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 
 _UNSTAMPED = 'geometry_msgs/msg/Twist'
 

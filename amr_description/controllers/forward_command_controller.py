@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from amr_description.control.contracts import Controller, ControllerContext, Input, Port, Severity
+from amr_description.control.contracts import Controller, ControllerContext, Input, Port
 from amr_description.control.interfaces import (
     ACCELERATION,
     CommandInterface,
@@ -37,6 +37,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.samples import CommandsSample
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.parameters import parameter
 
 _RATES = (VELOCITY, ACCELERATION, EFFORT)

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from amr_description.control.contracts import Controller, Input, Port, Severity
+from amr_description.control.contracts import Controller, Input, Port
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, StateInterface
 from amr_description.control.samples import TwistSample
 from amr_description.controllers.wheeled_drive import EmergencyStop
+from amr_description.log import Severity
 from amr_description.model.base_interfaces import BASE, COMMAND_AXES
 from amr_description.parameters import parameter
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import math
 from typing import Any
 
-from amr_description.control.contracts import Input, Log, Output, Port
+from amr_description.control.contracts import Input, Output, Port
 from amr_description.control.samples import TwistSample
 from amr_description.controllers.command_reception import (
     CommandReception,
@@ -38,6 +38,7 @@ from amr_description.controllers.steering_parameters import (
     AckermannSteeringParameters,
     SteeringParameters,
 )
+from amr_description.log import Log
 from amr_description.parameters import parameter
 
 _NOT_USED = 'Not used: a command is in force until the next one'

@@ -17,14 +17,7 @@ from dataclasses import dataclass
 import math
 from typing import Any
 
-from amr_description.control.contracts import (
-    Controller,
-    ControllerContext,
-    Input,
-    Output,
-    Port,
-    Severity,
-)
+from amr_description.control.contracts import Controller, ControllerContext, Input, Output, Port
 from amr_description.control.interfaces import (
     CommandInterface,
     Handle,
@@ -33,6 +26,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.sensor_samples import InterfaceGroup, InterfaceGroupsSample
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameters import keyed_group, parameter
 from amr_description.text import quote

@@ -31,7 +31,6 @@ from amr_description.control.contracts import (
     Controller,
     ControllerContext,
     Goal,
-    Severity,
 )
 from amr_description.control.dof_samples import GripperGoal, GripperState
 from amr_description.control.interfaces import (
@@ -44,6 +43,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.controllers.pid import Pid, PidGains
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.parameters import keyed_group, parameter
 
 

@@ -14,7 +14,7 @@ from itertools import chain
 from operator import itemgetter
 from typing import Any, ClassVar, TypeAlias
 
-from amr_description.control.contracts import Controller, ControllerContext, Output, Port, Severity
+from amr_description.control.contracts import Controller, ControllerContext, Output, Port
 from amr_description.control.interfaces import (
     ALL_INTERFACES,
     CommandInterface,
@@ -31,6 +31,7 @@ from amr_description.control.samples import (
 )
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter, ignored
+from amr_description.log import Severity
 from amr_description.parameters import group, parameter
 
 _FIELDS = (POSITION, VELOCITY, EFFORT)

@@ -40,7 +40,6 @@ from amr_description.control.contracts import (
     Input,
     Output,
     Service,
-    Severity,
 )
 from amr_description.control.interfaces import (
     ACCELERATION,
@@ -78,6 +77,7 @@ from amr_description.controllers.joint_trajectory_parameters import JointTraject
 from amr_description.controllers.pid import Pid
 from amr_description.controllers.trajectory_checks import TrajectoryRules
 from amr_description.controllers.trajectory_tolerances import Violation
+from amr_description.log import Severity
 
 _INVALID_GOAL = -1
 _PATH_TOLERANCE_VIOLATED = -4

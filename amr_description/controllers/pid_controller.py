@@ -36,7 +36,6 @@ from amr_description.control.contracts import (
     Qos,
     Service,
     ServicePort,
-    Severity,
 )
 from amr_description.control.dof_samples import (
     DofCommandSample,
@@ -58,6 +57,7 @@ from amr_description.control.interfaces import (
 from amr_description.controllers.pid import Pid, PidGains, STRATEGIES
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import CLAMP, FormerParameter
+from amr_description.log import Severity
 from amr_description.parameters import keyed_group, parameter
 
 Handle = TypeVar('Handle')

@@ -9,9 +9,10 @@ The sensor has the states ``position.x`` â€¦ ``position.z``, ``orientation.x`` â
 from dataclasses import dataclass
 import math
 
-from amr_description.control.contracts import Output, Port, Severity
+from amr_description.control.contracts import Output, Port
 from amr_description.control.sensor_samples import PoseSample
 from amr_description.controllers.sensor_broadcaster import axes, below, SensorBroadcaster
+from amr_description.log import Severity
 from amr_description.parameters import group, parameter
 
 _UNIT = 10e-3

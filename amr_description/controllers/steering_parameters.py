@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.controllers import former_drive_parameters
 from amr_description.controllers.diff_drive_parameters import LENGTH
 from amr_description.controllers.mecanum_drive_parameters import REFERENCE_TIMEOUT, TF_TOPIC
@@ -23,6 +22,7 @@ from amr_description.controllers.steering_kinematics import (
 )
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
+from amr_description.log import Log, Severity
 from amr_description.parameters import parameter
 
 _JOINTS: dict[str, Any] = {'read_only': True, 'fewer_than': 5, 'unique': True}

@@ -20,13 +20,7 @@ import math
 from typing import Any, ClassVar
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import (
-    Output,
-    Port,
-    Service,
-    ServicePort,
-    Severity,
-)
+from amr_description.control.contracts import Output, Port, Service, ServicePort
 from amr_description.control.interfaces import (
     InterfaceRequest,
     POSITION,
@@ -45,6 +39,7 @@ from amr_description.controllers.tricycle_limiters import SteeringLimits, Tracti
 from amr_description.controllers.wheeled_drive import stamped_twist_input, WheeledDrive
 from amr_description.errors import ControllerError
 from amr_description.former_parameters import FormerParameter
+from amr_description.log import Severity
 from amr_description.parameters import group, parameter
 
 _MILLISECOND = 1_000_000

@@ -11,15 +11,14 @@ from amr_description.control.contracts import (
     Controller,
     ControllerContext,
     Input,
-    Log,
     Output,
     Port,
     Qos,
-    Severity,
 )
 from amr_description.control.interfaces import CommandInterface, StateInterface, VELOCITY
 from amr_description.control.samples import FlagSample, Frames, OdometrySample, TwistSample
 from amr_description.controllers.command_reception import CommandReception, ignore_commands
+from amr_description.log import Log, Severity
 
 STAMPED_TWIST = 'geometry_msgs/msg/TwistStamped'
 REFERENCE_QOS = Qos(depth=1, reliability='best_effort')

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import math
 from typing import Any, TYPE_CHECKING
 
-from amr_description.control.contracts import null_log
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.parameter_faults import (
     controller_parameters,
@@ -21,6 +20,7 @@ from amr_description.controllers.parameter_faults import (
 )
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import null_log
 from amr_description.model.axles import vector_text
 from amr_description.model.findings import Finding, Severity
 from amr_description.model.frames import conjugate, dot, rotate, Transform, Vector

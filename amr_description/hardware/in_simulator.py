@@ -12,9 +12,10 @@ from collections.abc import Callable
 import re
 from typing import TypeAlias
 
-from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.contracts import HardwareComponent
 from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareInfo
 
 SIMULATED = 'amr_description/MujocoSystem'

@@ -23,7 +23,7 @@ from collections.abc import Sequence
 import math
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import HardwareComponent, Log, Severity, World
+from amr_description.control.contracts import HardwareComponent, World
 from amr_description.control.interfaces import (
     ACCELERATION,
     CommandInterface,
@@ -33,6 +33,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.joint_limits import value_at_rest
 from amr_description.errors import HardwareError
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import ComponentInfo, ComponentType, HardwareInfo
 from amr_description.text import truth
 

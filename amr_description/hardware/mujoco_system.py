@@ -20,7 +20,7 @@ from dataclasses import replace
 import math
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.contracts import HardwareComponent
 from amr_description.control.interfaces import (
     ACCELERATION,
     CommandInterface,
@@ -34,6 +34,7 @@ from amr_description.control.world import JointGroup, World
 from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware.mock_system import MockPart
 from amr_description.hardware.simulated_sensors import sensors_of
+from amr_description.log import Log, Severity
 from amr_description.model.gazebo import GAZEBO_POSITION_GAIN, ros2_control_host_of
 from amr_description.model.hardware_info import (
     HardwareInfo,

@@ -32,7 +32,7 @@ from collections.abc import Iterable, Sequence
 import math
 from typing import TypeVar
 
-from amr_description.control.contracts import HardwareComponent, Log, Severity, World
+from amr_description.control.contracts import HardwareComponent, World
 from amr_description.control.interfaces import (
     CommandInterface,
     Handle,
@@ -43,6 +43,7 @@ from amr_description.control.interfaces import (
 from amr_description.errors import HardwareDeactivationError, HardwareError
 from amr_description.hardware.serial_link import read_parameters, SerialBoard
 from amr_description.hardware.serial_protocol import Arm, BoardMode, Disarm, Get, Set, State
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import ComponentInfo, HardwareInfo
 
 H = TypeVar('H', bound=Handle)

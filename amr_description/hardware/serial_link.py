@@ -25,8 +25,6 @@ from typing import Any
 import serial
 from serial.tools import list_ports
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.control.plugin_errors import describe
 from amr_description.errors import HardwareError, ParameterError
 from amr_description.hardware.serial_protocol import (
     Board,
@@ -46,8 +44,10 @@ from amr_description.hardware.serial_protocol import (
     State,
     VERSION,
 )
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.parameters import build, parameter, Spec, specs
+from amr_description.plugin_errors import describe
 
 READ_TIMEOUT = 0.02
 """s: the longest wait for a byte."""

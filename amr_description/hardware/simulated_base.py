@@ -11,10 +11,11 @@ GPIO ``gazebo_base``, and a sensor for each link, ``<link>/ground_truth``.
 from collections.abc import Sequence
 import math
 
-from amr_description.control.contracts import HardwareComponent, Log
+from amr_description.control.contracts import HardwareComponent
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.world import World
 from amr_description.errors import HardwareError, SimulationError
+from amr_description.log import Log
 from amr_description.model.base_interfaces import link_of
 from amr_description.model.hardware_info import HardwareInfo
 

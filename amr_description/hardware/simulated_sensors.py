@@ -18,7 +18,6 @@ pose where there is a ``position.*``.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import (
     IMU_INTERFACES,
     MAGNETIC_INTERFACES,
@@ -30,6 +29,7 @@ from amr_description.control.world import World
 from amr_description.errors import HardwareError
 from amr_description.hardware.simulated_range import SimulatedRange
 from amr_description.hardware.simulated_sensor import Mount, mount_of, SimulatedSensor
+from amr_description.log import Log, Severity
 from amr_description.model.frames import conjugate, multiply, rotate, Transform
 from amr_description.model.gazebo import gazebo_sensors_of
 from amr_description.model.hardware_info import HardwareInfo

@@ -26,8 +26,8 @@ import sys
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import SimulationError
+from amr_description.log import Severity
 from amr_description.ros.firewall import guard
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare

@@ -28,7 +28,6 @@ from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
 from amr_description.control.manager_parameters import ManagerTable
@@ -44,6 +43,7 @@ from amr_description.control.ros.pacing import SimTimePacer, SystemClockPacer
 from amr_description.control.ros.realtime import lock_memory, set_cpu_affinity, set_fifo_priority
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import HardwareStartError, ParameterError
+from amr_description.log import Severity
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.endpoints import endpoint_node

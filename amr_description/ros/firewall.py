@@ -37,8 +37,8 @@ from weakref import ref
 from rclpy.logging import get_logger
 from rclpy.node import Node
 
-from amr_description.control.plugin_errors import describe
 from amr_description.errors import CallbackError
+from amr_description.plugin_errors import describe
 from amr_description.ros.rclpy_internals import RcutilsLogger, takes_info
 from amr_description.text import encodable
 

@@ -11,8 +11,7 @@ import queue
 import threading
 import time
 
-from amr_description.control.contracts import Severity
-from amr_description.control.throttle import Throttle
+from amr_description.log import Severity, Throttle
 from amr_description.ros.rclpy_internals import RcutilsLogger
 from amr_description.streams import wait_for_stderr
 from amr_description.text import encodable

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A contact sensor on a robot: what touches its collisions; without ROS."""
 
-from amr_description.control.contracts import Log, Severity
+from amr_description.log import Log, Severity
 from amr_description.model.collision_names import find_collisions, gazebo_name
 from amr_description.model.robot import Robot
 from amr_description.model.sensors import ContactSensor

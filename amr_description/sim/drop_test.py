@@ -16,9 +16,9 @@ import mujoco
 import numpy as np
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import EFFORT, VELOCITY
 from amr_description.errors import SimulationError
+from amr_description.log import Severity
 from amr_description.model.axles import axle_fault, vector_text
 from amr_description.model.frames import rotate, Transform, Vector, yaw_of
 from amr_description.model.gazebo_translation import translate

@@ -17,8 +17,8 @@ import mujoco
 import numpy as np
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError
+from amr_description.log import Log, null_log, Severity
 from amr_description.sim.fleet_solver import FleetSolver
 from amr_description.sim.rollers import RollerContacts
 from amr_description.text import unwrap

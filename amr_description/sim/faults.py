@@ -23,7 +23,7 @@ import mujoco
 import numpy as np
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, Severity
+from amr_description.log import Log, Severity
 from amr_description.sim.actuators import rotor_name
 from amr_description.sim.engine import compiler_message, Engine
 

@@ -13,7 +13,7 @@ from itertools import combinations
 
 import mujoco
 
-from amr_description.control.contracts import Log, Severity
+from amr_description.log import Log, Severity
 from amr_description.model.gazebo_physics import GazeboPhysics
 from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.model.wheels import Wheel

@@ -15,9 +15,9 @@ from typing import Any, TypeAlias
 import mujoco
 import numpy as np
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SimulationError
+from amr_description.log import Log, Severity
 from amr_description.model.robot import Joint
 from amr_description.sim.actuator_modes import ActuatorMode, EffortReader, RobotActuators
 from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name

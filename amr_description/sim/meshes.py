@@ -19,8 +19,8 @@ import mujoco
 import numpy as np
 
 from amr_description.ament_index import resolve_uri
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import MeshError, ResourceError, SpawnError
+from amr_description.log import Log, Severity
 from amr_description.model.frames import Vector
 from amr_description.model.meshes import FORMATS, load_mesh, TriangleMesh
 from amr_description.sim.spawning import SpawnCode

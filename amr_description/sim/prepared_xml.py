@@ -11,7 +11,7 @@ the XML before it reads it, and with them what a robot is taken as that is not q
 
 from lxml import etree
 
-from amr_description.control.contracts import Log
+from amr_description.log import Log
 from amr_description.model.findings import raise_error
 from amr_description.model.mended_inertials import mended_inertials
 from amr_description.model.robot import Inertial, Joint, Robot

@@ -13,9 +13,9 @@ import math
 
 import mujoco
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.interfaces import POSITION, QUANTITIES, VELOCITY
 from amr_description.errors import SpawnError
+from amr_description.log import Log, Severity
 from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo_physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo

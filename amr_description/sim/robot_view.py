@@ -8,9 +8,9 @@ import math
 import mujoco
 import numpy as np
 
-from amr_description.control.contracts import Log
 from amr_description.control.world import ImuReading, Wrench
 from amr_description.errors import SimulationError
+from amr_description.log import Log
 from amr_description.model.frames import (
     conjugate,
     cross,

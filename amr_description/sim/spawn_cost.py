@@ -11,8 +11,8 @@ a chain of 100 links, 10 s for one of 1,000.
 from dataclasses import dataclass
 
 from amr_description.ament_index import resolve_uri
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import ResourceError, SpawnError
+from amr_description.log import Log, Severity
 from amr_description.model.robot import Mesh, Robot
 from amr_description.sim.spawning import SpawnCode
 

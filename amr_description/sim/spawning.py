@@ -12,8 +12,8 @@ import enum
 import math
 import re
 
-from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import DescriptionError, SpawnError
+from amr_description.log import Log, null_log, Severity
 from amr_description.model.checks import require_sound
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Quaternion, Transform

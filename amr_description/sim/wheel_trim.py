@@ -23,7 +23,7 @@ from typing import TypeAlias
 import mujoco
 import numpy as np
 
-from amr_description.control.contracts import Log, null_log, Severity
+from amr_description.log import Log, null_log, Severity
 from amr_description.sim.engine import compiler_warnings
 from amr_description.sim.faults import collect_mujoco_warnings
 from amr_description.sim.gazebo_physics import wheel_geom_name

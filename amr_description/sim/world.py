@@ -20,8 +20,8 @@ from contextlib import contextmanager
 import mujoco
 import numpy as np
 
-from amr_description.control.contracts import Log, null_log, Severity
 from amr_description.errors import SimulationError, SpawnError
+from amr_description.log import Log, null_log, Severity
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers

@@ -13,11 +13,10 @@ from dataclasses import dataclass
 from typing import Generic, Protocol, TypeVar
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Commands, Loop, Pacer, Publisher, Stepper
-from amr_description.control.plugin_errors import describe
 from amr_description.errors import SpawnError
+from amr_description.log import Log, Severity
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import ros2_control_host_of
 from amr_description.model.gazebo_bridge import bridge_of, bridged
@@ -27,6 +26,7 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.plugin_errors import describe
 from amr_description.sim.engine import physics_stepping, steps_in
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.spawn_cost import announce, cost_of

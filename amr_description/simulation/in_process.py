@@ -23,15 +23,16 @@ import math
 from pathlib import Path
 from typing import Any, TYPE_CHECKING
 
-from amr_description.control.contracts import Action, Goal, Input, Port, Service, Severity
+from amr_description.control.contracts import Action, Goal, Input, Port, Service
 from amr_description.control.loop import Pacer, Publisher, Stepper
-from amr_description.control.plugin_errors import describe
 from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError
+from amr_description.log import Severity
 from amr_description.model.controller_files import declared_controllers
 from amr_description.model.frames import Transform, Vector
 from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.parameters import build
+from amr_description.plugin_errors import describe
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.api import SimulationApi
 from amr_description.simulation.engine import SimulationEngine, Spawned

@@ -6,7 +6,6 @@ from collections.abc import Callable, Coroutine, Mapping, Sequence
 from typing import Any, TypeVar
 
 from amr_description.control.controller_manager import ControllerManager
-from amr_description.control.plugin_errors import log_error
 from amr_description.control.snapshot import ControllerSnapshot, ManagerSnapshot
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.bring_up import bring_up
@@ -16,6 +15,7 @@ from amr_description.controller_manager.requests import ManagerRequests, run_at_
 from amr_description.controller_manager.spawner import ControllerState, reason_of
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.messages.lifecycle import ACTIVITY, activity, States, states_of
+from amr_description.plugin_errors import log_error
 from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.engine import Arrival
 from amr_description.simulation.log_lines import LogLines

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 import logging
 import time as wall
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.control.plugin_errors import is_traceback
-from amr_description.control.throttle import Throttle
+from amr_description.log import Log, Severity, Throttle
+from amr_description.plugin_errors import is_traceback
 
 logging.getLogger('amr_description').addHandler(logging.NullHandler())
 _MOST = 5000

@@ -5,7 +5,7 @@
 import numpy as np
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log
+from amr_description.log import Log
 from amr_description.model.frames import Vector
 from amr_description.model.sensors import (
     Camera,

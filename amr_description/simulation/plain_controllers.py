@@ -11,10 +11,11 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TYPE_CHECKING, TypeVar
 
-from amr_description.control.contracts import Action, Controller, Input, Log, Output, Service
+from amr_description.control.contracts import Action, Controller, Input, Output, Service
 from amr_description.control.interfaces import LifecycleState
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.controller_manager.plain_parameters import PlainParameters
+from amr_description.log import Log
 from amr_description.messages.lifecycle import TRANSITION_EVENT, transition_event
 from amr_description.model.robot import Robot
 from amr_description.ros_arguments import NodeNames

@@ -10,10 +10,10 @@ Gazebo's plugins work from the first moment on, without a spawner; so do these. 
 from collections.abc import Sequence
 import json
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.errors import AmrError
+from amr_description.log import Log, Severity
 from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
 from amr_description.model.sensors import frame_in
 from amr_description.text import quote

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, TYPE_CHECKING
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log
 from amr_description.control.loop import Loop
+from amr_description.log import Log
 from amr_description.model.sensors import WorldSensor
 from amr_description.parameters import specs
 from amr_description.sim.world import MujocoWorld

@@ -12,10 +12,11 @@ from typing import Any, TYPE_CHECKING, TypeVar
 
 from amr_description.bag.qos_text import QosProfile
 from amr_description.bag.storage import TopicMetadata
-from amr_description.control.contracts import Input, Log, Qos, Severity
-from amr_description.control.plugin_errors import describe
+from amr_description.control.contracts import Input, Qos
 from amr_description.control.recorded_commands import each_new
+from amr_description.log import Log, Severity
 from amr_description.messages.parts import fill_stamp
+from amr_description.plugin_errors import describe
 from amr_description.simulation.topics.advertising import Encode
 
 if TYPE_CHECKING:  # its libraries are for who records

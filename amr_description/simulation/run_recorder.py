@@ -36,8 +36,8 @@ from amr_description.bag.schemas import compose, schema_text
 from amr_description.bag.storage import BagMessage, OVERHEAD, TopicMetadata
 from amr_description.bag.type_hashes import type_hash
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import BagError
+from amr_description.log import Log, Severity
 from amr_description.messages.definitions import hashes, texts
 from amr_description.streams import print_traceback
 from amr_description.text import shorten

@@ -17,8 +17,8 @@ from typing import Any, Protocol, TYPE_CHECKING
 
 from amr_description.bag.run_description import RunDescription, RunRobot, TOPIC, TYPE
 from amr_description.cdr.writer import Writer
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import BagError, SimulationError
+from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of

@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from amr_description.control.contracts import Log
 from amr_description.errors import SimulationError
+from amr_description.log import Log
 from amr_description.model.sensors import Camera, ContactSensor, Lidar, WorldSensor
 from amr_description.sim.robot_view import RobotView
 from amr_description.sim.world import MujocoWorld

@@ -6,9 +6,9 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 import warnings
 
-from amr_description.control.contracts import Log
 from amr_description.controller_manager.spawner import Manager, Spawner
 from amr_description.controller_manager.spawner_arguments import parse
+from amr_description.log import Log
 from amr_description.model.controller_files import (
     class_of,
     DeclaredController,

@@ -16,7 +16,6 @@ from amr_description.control.contracts import (
     HardwareComponent,
     Output,
     Port,
-    Severity,
 )
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import (
@@ -27,6 +26,7 @@ from amr_description.control.interfaces import (
 )
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import Strictness
+from amr_description.log import Severity
 from amr_description.model.hardware_info import HardwareInfo, HardwareType
 
 FIXTURES = TESTS / 'fixtures' / 'control'

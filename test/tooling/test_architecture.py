@@ -43,9 +43,9 @@ BUDGETS = {
 
 BASE = {
     'ament_index', 'argument_types', 'clock', 'colors', 'entry', 'errors', 'former_parameters',
-    'forking', 'launch_log', 'launch_variables', 'limited_child', 'ownership',
-    'parameter_files', 'parameters', 'registry', 'ros_arguments', 'stand_ins', 'streams',
-    'png', 'terminal', 'text', 'trusted_files',
+    'forking', 'launch_log', 'launch_variables', 'limited_child', 'log', 'ownership',
+    'parameter_files', 'parameters', 'plugin_errors', 'registry', 'ros_arguments', 'stand_ins',
+    'png', 'streams', 'terminal', 'text', 'trusted_files',
 }  # fmt: skip
 # room -> rooms it may import; every room may import the base.
 ARROWS = {
@@ -62,7 +62,7 @@ ARROWS = {
     'sim': {'control', 'model', 'maps'},  # the map of a world
     'viewer': {'model'},
     'navigation': {'model', 'maps'},
-    'ros': {'cdr', 'messages', 'control', 'model'},
+    'ros': {'cdr', 'messages', 'model'},
     'bag': set(),
     'bag/ros': {'bag', 'ros'},
     'tf2_ros': {'ros', 'model', 'sensor_msgs_py'},  # of clouds

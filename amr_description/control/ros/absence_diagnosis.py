@@ -21,8 +21,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.plugin_errors import is_traceback
 from amr_description.errors import NoAnswerError
+from amr_description.plugin_errors import is_traceback
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.qos import CLOCK
 from amr_description.ros.rclpy_internals import NodeNameNonExistentError

@@ -23,7 +23,7 @@ from time import monotonic_ns
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from amr_description.control.contracts import Log, Severity, World
+from amr_description.control.contracts import World
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.node_parameters import NodeParameters
@@ -38,6 +38,7 @@ from amr_description.control.snapshot import ManagerSnapshot
 from amr_description.controller_manager.bring_up import bring_up
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controller_manager.requests import ManagerRequests
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.ros.parameters import add_parameter_event_qos_overrides

@@ -45,7 +45,6 @@ from rclpy.time import ClockType, Time
 from rosgraph_msgs.msg import Clock
 
 from amr_description.control.contracts import Input
-from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import encoder_of
 from amr_description.control.ros.message_recorder import (
     MessageRecorder,
@@ -54,6 +53,7 @@ from amr_description.control.ros.message_recorder import (
     Sink,
 )
 from amr_description.messages.encoders import Encoder
+from amr_description.plugin_errors import describe
 from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.firewall import guard
 from amr_description.ros.message_types import type_name

@@ -22,7 +22,6 @@ from typing import TypeVar
 from rclpy.executors import Executor
 from rclpy.task import Future
 
-from amr_description.control.contracts import Log, null_log
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import LoopPublisher
@@ -34,6 +33,7 @@ from amr_description.control.ros.loop_watchdog import (
     WatchdogClock,
 )
 from amr_description.control.ros.realtime import set_time_slice, SHORT_SLICE
+from amr_description.log import Log, null_log
 from amr_description.ros.log_thread import LogThread
 from amr_description.streams import print_traceback
 

@@ -27,9 +27,9 @@ import time
 from types import FrameType
 from typing import Protocol
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros.loop_publisher import LoopPublisher
+from amr_description.log import Log, Severity
 
 LIMIT = 0.5
 """s of a cycle from which on the loop stands."""

@@ -20,8 +20,8 @@ import math
 import time
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.ros.loop_thread import CallQueue
+from amr_description.log import Log, Severity
 
 CLOCK_STEP = 50_000_000
 """ns: how far the system clock may drift from the monotonic one before it counts as set anew."""

@@ -19,16 +19,8 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.task import Future
 
-from amr_description.control.contracts import (
-    Controller,
-    Input,
-    Output,
-    Port,
-    Qos,
-    Severity,
-)
+from amr_description.control.contracts import Controller, Input, Output, Port, Qos
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.encoders import encoder_of
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import LoopContext
@@ -39,10 +31,12 @@ from amr_description.control.ros.port_servers import (
 )
 from amr_description.controller_manager.made_controllers import make_controller
 from amr_description.errors import AmrError
+from amr_description.log import Severity
 from amr_description.messages.lifecycle import transition_event
 from amr_description.messages.readers import reader_of
 from amr_description.messages.writers import writer_of
 from amr_description.model.robot import Robot
+from amr_description.plugin_errors import describe
 from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.message_types import message_type

@@ -19,10 +19,10 @@ from rclpy.node import Node
 from rclpy.timer import Timer
 
 from amr_description.control.contracts import Action, Goal, GoalStatus, Service
-from amr_description.control.plugin_errors import describe
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.messages.readers import part_of, reader_of
 from amr_description.messages.writers import writer_of
+from amr_description.plugin_errors import describe
 from amr_description.ros.message_types import action_type, service_type
 from amr_description.ros.rclpy_internals import begin_goal, end_goal
 from amr_description.ros.standing_clock import StandingClockNode

@@ -19,7 +19,7 @@ import os
 import platform
 import struct
 
-from amr_description.control.contracts import Log, Severity
+from amr_description.log import Log, Severity
 
 _LOCK_ALL = 1 | 2
 """MCL_CURRENT | MCL_FUTURE of mlockall(2)."""

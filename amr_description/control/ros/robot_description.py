@@ -16,13 +16,13 @@ from rclpy.node import Node
 from rclpy.time import ClockType
 from std_msgs.msg import String
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.control.plugin_errors import log_error
 from amr_description.errors import DescriptionError
+from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
+from amr_description.plugin_errors import log_error
 from amr_description.ros.qos import LATCHED
 
 TOPIC = 'robot_description'

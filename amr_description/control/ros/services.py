@@ -23,7 +23,6 @@ from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile
 
 from amr_description.control.interfaces import LifecycleState
-from amr_description.control.plugin_errors import log_error
 from amr_description.control.snapshot import (
     ComponentSnapshot,
     ControllerSnapshot,
@@ -31,6 +30,7 @@ from amr_description.control.snapshot import (
 )
 from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.controllers import CONTROLLERS
+from amr_description.plugin_errors import log_error
 
 _QOS = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 _BASE_CLASS = 'controller_interface::ControllerInterface'

@@ -20,8 +20,8 @@ and meshes cost rays far more. What rays have instead is said there
 
 from collections.abc import Callable
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import RenderingError
+from amr_description.log import Log, Severity
 from amr_description.sim.cameras.gl_renderer import GlRenderer
 from amr_description.sim.cameras.ray_renderer import RayRenderer
 from amr_description.sim.cameras.renderer import RenderedPicture, Renderer, Shot

@@ -14,7 +14,6 @@ import enum
 from rclpy.executors import Executor
 from rclpy.task import Future
 
-from amr_description.control.contracts import Log
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.ros.controller_manager_node import (
     ControllerManagerNode,
@@ -24,6 +23,7 @@ from amr_description.control.ros.controller_manager_node import (
 from amr_description.control.ros.loop_thread import LoopContext
 from amr_description.control.ros.robot_description import DescriptionSource
 from amr_description.errors import RequestError
+from amr_description.log import Log
 from amr_description.model.frames import Transform
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of

@@ -13,9 +13,9 @@ from dataclasses import dataclass, field
 import time
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Log, Severity
 from amr_description.control.loop import Publisher, Stepper
 from amr_description.control.ros.pacing import WallPacer
+from amr_description.log import Log, Severity
 
 WINDOW = NANOSECONDS
 """ns of the wall clock over which the factor is taken."""

@@ -14,9 +14,9 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from simulation_interfaces.msg import Result
 
-from amr_description.control.contracts import Log
-from amr_description.control.plugin_errors import describe, log_error
 from amr_description.errors import AmrError, RequestError
+from amr_description.log import Log
+from amr_description.plugin_errors import describe, log_error
 from amr_description.text import unwrap
 
 Handler: TypeAlias = Callable[[Any, Any], Awaitable[None]]

@@ -41,8 +41,8 @@ from simulation_interfaces.srv import (
 )
 
 from amr_description.ament_index import resolve_uri, shipped_worlds, world_path
-from amr_description.control.contracts import Severity
 from amr_description.errors import RequestError, ResourceError, SimulationError
+from amr_description.log import Severity
 from amr_description.model.frames import Transform
 from amr_description.ros.messages import fill_pose
 from amr_description.ros.standing_clock import StandingClockNode

@@ -16,8 +16,6 @@ from simulation_interfaces.srv import (
 )
 
 from amr_description.ament_index import OWN_PACKAGE
-from amr_description.control.contracts import Severity
-from amr_description.control.plugin_errors import log_error
 from amr_description.entry import python_command
 from amr_description.errors import (
     DescriptionError,
@@ -28,12 +26,14 @@ from amr_description.errors import (
     SpawnError,
 )
 from amr_description.limited_child import Ended, Limits, run_limited
+from amr_description.log import Severity
 from amr_description.model.description_file import (
     description_at,
     split_uri,
     takes_arguments,
 )
 from amr_description.model.mesh_paths import with_absolute_paths
+from amr_description.plugin_errors import log_error
 from amr_description.ros.messages import transform_of
 from amr_description.ros.runtime import run_in_thread
 from amr_description.sim.ros.service_replies import create_services, fill_error

@@ -19,8 +19,8 @@ from functools import partial
 from rclpy.node import Node
 from ros_gz_interfaces.msg import Entity, EntityWrench
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import SimulationError
+from amr_description.log import Severity
 from amr_description.ros.messages import vector_of
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.wrenches import MOST, WorldWrench

@@ -9,7 +9,7 @@ It is loaded with the first sensor: this is a tenth of the simulator's imports.
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from amr_description.control.contracts import Log
+from amr_description.log import Log
 from amr_description.model.sensors import Camera, ContactSensor, Lidar
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.state_copy import CopiedScenes, StateCopier

@@ -5,8 +5,8 @@
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import AmrError
+from amr_description.log import Log, Severity
 from amr_description.model.sensors import WorldSensor
 from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.topics.advertising import Topics

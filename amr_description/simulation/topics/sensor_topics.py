@@ -5,7 +5,7 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 
-from amr_description.control.contracts import Log
+from amr_description.log import Log
 from amr_description.model.sensors import frame_in, SensorMount
 from amr_description.sim.cameras.renderer import Renderer
 from amr_description.sim.robot_view import RobotView

@@ -15,8 +15,8 @@ from collections.abc import Callable
 import threading
 import time as wall
 
-from amr_description.control.contracts import Log, Severity
-from amr_description.control.plugin_errors import describe, log_traceback
+from amr_description.log import Log, Severity
+from amr_description.plugin_errors import describe, log_traceback
 
 _LOG_PERIOD = 10.0
 """s between two lines of a sensor whose measurements are left out."""

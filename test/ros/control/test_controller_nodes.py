@@ -10,7 +10,7 @@ from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from support.manager_host import ros_in_this_process, running_host
 from support.running_programs import PATIENCE
 
-from amr_description.control.contracts import Severity
+from amr_description.log import Severity
 from amr_description.ros.service_calls import call, wait_until
 
 

@@ -10,12 +10,12 @@ from types import SimpleNamespace
 import pytest
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
-from amr_description.control.contracts import Severity
 from amr_description.control.loop import Loop
 from amr_description.control.ros import loop_thread
 from amr_description.control.ros.loop_publisher import LoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.control.ros.loop_watchdog import WatchdogClock
+from amr_description.log import Severity
 
 PATIENCE = 10.0
 STANDS = 'The control loop has stood for '

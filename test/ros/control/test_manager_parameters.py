@@ -7,11 +7,11 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from support.manager_host import ros_in_this_process
 
-from amr_description.control.contracts import null_log
 from amr_description.control.ros.node_parameters import NodeParameters
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import null_log
 
 
 @pytest.fixture

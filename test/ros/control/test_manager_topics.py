@@ -15,10 +15,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from support.control_fakes import WHEELS
 from support.manager_host import ros_in_this_process, running_host
 
-from amr_description.control.contracts import null_log
 from amr_description.control.ros.node_parameters import NodeParameters
 from amr_description.control.ros.status_topics import DiagnosticsTopic
 from amr_description.controller_manager.parameters import ManagerParameters
+from amr_description.log import null_log
 from amr_description.ros.service_calls import wait_until
 
 LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -23,7 +23,6 @@ from support.motor_boards import BoardOnPty, on_motor_board, SIDES, TamperedBoar
 from support.serial_rig import descriptors, drive, PATIENCE, Rig, threads
 from support.waiting import until
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareDeactivationError, HardwareError
 from amr_description.hardware import HARDWARE, serial_link
 from amr_description.hardware.serial_base_system import SerialBaseSystem
@@ -42,6 +41,7 @@ from amr_description.hardware.serial_protocol import (
     State,
 )
 from amr_description.hardware.simulated_motor_board import MotorConstants
+from amr_description.log import Severity
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 

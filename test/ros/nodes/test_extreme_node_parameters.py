@@ -12,7 +12,6 @@ from rclpy.parameter import Parameter
 from support.manager_host import ros_in_this_process
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import null_log
 from amr_description.control.manager_parameters import CommonParameters, ManagerTable
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
@@ -23,6 +22,7 @@ from amr_description.control.ros.status_topics import DiagnosticsTopic
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import AmrError, ParameterError
+from amr_description.log import null_log
 from amr_description.nodes.joint_state_publisher import (
     JointStatePublisher,
     JointStatePublisherSettings,

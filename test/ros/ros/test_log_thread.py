@@ -6,7 +6,7 @@ import threading
 
 import pytest
 
-from amr_description.control.contracts import Severity
+from amr_description.log import Severity
 from amr_description.ros import log_thread
 from amr_description.ros.log_thread import LogThread
 

@@ -10,7 +10,7 @@ from rclpy.executors import SingleThreadedExecutor
 from support.control_fakes import FakeLog
 from support.ros_processes import PATIENCE
 
-from amr_description.control.contracts import Severity
+from amr_description.log import Severity
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.urdf import parse
 from amr_description.sim.ros.executor_tasks import abandon, run_in

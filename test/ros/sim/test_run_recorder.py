@@ -17,9 +17,10 @@ from tf2_msgs.msg import TFMessage
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import OVERHEAD
-from amr_description.control.contracts import Input, Port, Severity
+from amr_description.control.contracts import Input, Port
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, LoopTopic
 from amr_description.errors import BagError
+from amr_description.log import Severity
 from amr_description.messages.encoders import filling
 from amr_description.ros.cdr_padding import serialize
 from amr_description.sim.ros.run_recorder import RosRunRecorder

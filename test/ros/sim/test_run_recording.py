@@ -15,9 +15,9 @@ from tf2_msgs.msg import TFMessage
 from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
 from amr_description.bag.run_description import from_text, RunDescription, TOPIC
-from amr_description.control.contracts import Severity
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.errors import BagError
+from amr_description.log import Severity
 from amr_description.ros.cdr_padding import serialize
 from amr_description.sim.ros.run_recorder import RosRunRecorder
 from amr_description.sim.ros.run_recording import RosRunRecording

@@ -17,7 +17,7 @@ from support.motor_boards import on_motor_board
 from support.needs import need
 from support.running_programs import PATIENCE, Program
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
@@ -27,6 +27,7 @@ from amr_description.controllers.diff_drive_controller import DiffDriveControlle
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
+from amr_description.log import Severity
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.nodes import motor_board

@@ -14,10 +14,10 @@ from support.control_fakes import (
     MS,
 )
 
-from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import ALL_INTERFACES, LifecycleState
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 
 STRICT, BEST_EFFORT = Strictness.STRICT, Strictness.BEST_EFFORT
 BOTH = pytest.mark.parametrize('strictness', [STRICT, BEST_EFFORT])

@@ -23,7 +23,7 @@ from support.control_fakes import (
 )
 from support.loaded_manager import ERRORS, loaded, PERIOD, run, states_of
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import ALL_INTERFACES, LifecycleState
 from amr_description.control.samples import TwistSample
@@ -35,6 +35,7 @@ from amr_description.controllers.joint_state_broadcaster import (
     JointStateBroadcaster,
 )
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 # --- the tick ------------------------------------------------------------------------------------

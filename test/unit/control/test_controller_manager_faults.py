@@ -9,10 +9,10 @@ import pytest
 from support.control_fakes import FakeController, FakeHardware, FakeLog, make_manager, MS, start
 from support.loaded_manager import ERRORS, PERIOD, run, states_of
 
-from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError, HardwareError
+from amr_description.log import Severity
 
 # --- faults --------------------------------------------------------------------------------------
 

@@ -9,13 +9,13 @@ import pytest
 from support.control_fakes import FakeChainable, FakeController, FakeHardware, FakeLog, MS
 from support.examples import examples
 
-from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager, ManagerDefaults
 from amr_description.control.cycle_plan import CyclePlan
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.switching import Strictness
 from amr_description.errors import AmrError, HardwareDeactivationError, HardwareError
+from amr_description.log import Severity
 from amr_description.model.hardware_info import HardwareType
 
 PERIOD = 10 * MS

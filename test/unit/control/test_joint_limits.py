@@ -12,7 +12,6 @@ from support.control_fakes import FakeController, FakeHardware, FakeLog, make_ma
 from support.examples import examples
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.joint_limits import (
@@ -29,6 +28,7 @@ from amr_description.control.joint_limits import (
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.errors import HardwareError
 from amr_description.hardware.mock_system import MockSystem
+from amr_description.log import Severity
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 

@@ -11,7 +11,6 @@ from support.control_fakes import bring_up, FakeHardware, FakeLog, MS
 from support.examples import examples
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
 from amr_description.control.controller_list import ControllerList
 from amr_description.control.interfaces import (
     ALL_INTERFACES,
@@ -24,6 +23,7 @@ from amr_description.control.interfaces import (
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshot import take_snapshot
 from amr_description.errors import HardwareDeactivationError, HardwareError, InterfaceError
+from amr_description.log import Severity
 from amr_description.model.hardware_info import (
     ComponentInfo,
     ComponentType,

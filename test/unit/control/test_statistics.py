@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from support.control_fakes import FakeController, FakeHardware, FakeLog, MS, start
 
-from amr_description.control.contracts import Severity
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.statistics import RunningCycleStatistic, RunningStatistic, Statistic
 from amr_description.control.switching import Strictness
+from amr_description.log import Severity
 from amr_description.model.hardware_info import HardwareType
 
 US = 1000

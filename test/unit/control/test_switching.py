@@ -16,11 +16,12 @@ from support.control_fakes import (
     start,
 )
 
-from amr_description.control.contracts import Input, Port, Severity
+from amr_description.control.contracts import Input, Port
 from amr_description.control.controller_manager import ControllerManager, ManagerDefaults
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.switching import NOTHING_TO_SWITCH, Strictness
 from amr_description.errors import ControllerError, HardwareDeactivationError, HardwareError
+from amr_description.log import Severity
 
 STRICT, BEST_EFFORT = Strictness.STRICT, Strictness.BEST_EFFORT
 BOTH = pytest.mark.parametrize('strictness', [STRICT, BEST_EFFORT])

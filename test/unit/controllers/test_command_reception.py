@@ -7,9 +7,9 @@ import math
 import pytest
 from support.control_fakes import FakeLog, MS
 
-from amr_description.control.contracts import Severity
 from amr_description.control.samples import TwistSample
 from amr_description.controllers.command_reception import CommandReception, FOREIGN_CLOCK
+from amr_description.log import Severity
 
 TIMEOUT = 500 * MS
 T0 = 1_000_000 * MS

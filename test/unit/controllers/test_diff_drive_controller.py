@@ -17,13 +17,13 @@ from support.diff_drive_bench import Bench, PERIOD, SIZES, WHEELS
 from support.examples import examples
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
 from amr_description.control.interfaces import (
     Claim,
     NO_INTERFACES,
 )
 from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 FRAMES = VECTORS['tf_frame_names']

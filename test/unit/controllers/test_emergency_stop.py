@@ -6,10 +6,10 @@ import pytest
 from support.control_fakes import FakeLog
 from support.wheel_bench import PERIOD, WheelBench
 
-from amr_description.control.contracts import Severity
 from amr_description.control.samples import FlagSample, TwistSample
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.wheeled_drive import EMERGENCY_STOP, EmergencyStop
+from amr_description.log import Severity
 
 CORNERS = ('front_left', 'front_right', 'rear_right', 'rear_left')
 SIDES = {'left_wheel_names': ['left'], 'right_wheel_names': ['right']}

@@ -17,12 +17,13 @@ from support.control_fakes import (
     WHEELS,
 )
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import CommandInterface, NO_INTERFACES
 from amr_description.control.samples import CommandsSample
 from amr_description.control.switching import Strictness
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 FORWARD = 'forward_command_controller/ForwardCommandController'

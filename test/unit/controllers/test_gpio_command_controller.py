@@ -7,7 +7,7 @@ import math
 import pytest
 from support.control_fakes import collect, FakeLog, MS
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.sensor_samples import InterfaceGroup, InterfaceGroupsSample
 from amr_description.controllers.gpio_command_controller import (
@@ -15,6 +15,7 @@ from amr_description.controllers.gpio_command_controller import (
     GpioParameters,
 )
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.model import urdf
 from amr_description.parameters import build
 

@@ -8,13 +8,14 @@ import pytest
 from support.control_fakes import collect, FakeLog, MS, WHEELS
 from support.paths import ROOT
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import ALL_INTERFACES, StateInterface
 from amr_description.controllers.joint_state_broadcaster import (
     BroadcasterParameters,
     JointStateBroadcaster,
 )
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.model.urdf import load
 from amr_description.parameters import build, specs
 

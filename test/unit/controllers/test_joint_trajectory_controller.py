@@ -13,13 +13,14 @@ import pytest
 from support.trajectory_arm import Arm, outcome, PERIOD, trajectory
 
 from amr_description.clock import NANOSECONDS as S
-from amr_description.control.contracts import GoalStatus, Severity
+from amr_description.control.contracts import GoalStatus
 from amr_description.control.trajectory_samples import (
     JointTolerance,
     QueryStateRequest,
     SpeedScalingSample,
     TrajectoryPoint,
 )
+from amr_description.log import Severity
 from amr_description.model.urdf import parse
 
 URDF = """

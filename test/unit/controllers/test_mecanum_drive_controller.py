@@ -10,7 +10,6 @@ from support.control_fakes import MS
 from support.examples import examples
 from support.wheel_bench import PERIOD, WheelBench
 
-from amr_description.control.contracts import Severity
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.mecanum_drive_controller import (
     MecanumDriveController,
@@ -18,6 +17,7 @@ from amr_description.controllers.mecanum_drive_controller import (
 )
 from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
 from amr_description.errors import ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 CORNERS = ('front_left', 'front_right', 'rear_right', 'rear_left')

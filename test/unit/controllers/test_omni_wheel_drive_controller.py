@@ -10,7 +10,6 @@ from support.control_fakes import MS
 from support.examples import examples
 from support.wheel_bench import PERIOD, WheelBench
 
-from amr_description.control.contracts import Severity
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.omni_wheel_drive_controller import (
     OmniKinematics,
@@ -18,6 +17,7 @@ from amr_description.controllers.omni_wheel_drive_controller import (
     OmniWheelDriveParameters,
 )
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 VALUES = {

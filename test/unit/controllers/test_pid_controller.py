@@ -7,11 +7,12 @@ import math
 import pytest
 from support.control_fakes import collect, FakeLog, MS
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.dof_samples import DofCommandSample, SetBoolRequest
 from amr_description.control.interfaces import CommandInterface, NO_INTERFACES, StateInterface
 from amr_description.controllers.pid_controller import PidController, PidParameters
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 PERIOD = 10 * MS

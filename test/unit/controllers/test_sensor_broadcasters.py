@@ -7,10 +7,11 @@ import math
 import pytest
 from support.control_fakes import collect, FakeLog, MS
 
-from amr_description.control.contracts import ControllerContext, Severity
+from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import NO_INTERFACES, StateInterface
 from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 WRENCH = 'force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster'

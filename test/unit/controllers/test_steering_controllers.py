@@ -8,7 +8,6 @@ import pytest
 from support.control_fakes import FakeLog, MS
 from support.wheel_bench import PERIOD, WheelBench
 
-from amr_description.control.contracts import Severity
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.steering_kinematics import (
     AckermannKinematics,
@@ -16,6 +15,7 @@ from amr_description.controllers.steering_kinematics import (
     TricycleKinematics,
 )
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 BICYCLE = {

@@ -10,12 +10,12 @@ from support.control_fakes import collect
 from support.examples import examples
 from support.wheel_bench import WheelBench
 
-from amr_description.control.contracts import Severity
 from amr_description.control.samples import AckermannSample, EmptySample
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.tricycle_controller import TricycleController, TricycleParameters
 from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
 from amr_description.errors import ControllerError, ParameterError
+from amr_description.log import Severity
 from amr_description.parameters import build
 
 VALUES = {

@@ -11,9 +11,9 @@ import yaml
 
 from amr_description.cli.control import VERBS
 from amr_description.clock import NANOSECONDS
-from amr_description.control.contracts import Severity
 from amr_description.control.samples import TwistSample
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 
 PAGE = Page('chain_a_controller.md')
 CIRCLE, CHAINABLE = PAGE.blocks('python')

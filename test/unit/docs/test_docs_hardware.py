@@ -15,7 +15,7 @@ from support.control_fakes import collect, FakeLog, MS, start
 from support.paths import ROOT
 
 from amr_description.bringup.stacks import STACKS
-from amr_description.control.contracts import ControllerContext, HardwareComponent, Severity
+from amr_description.control.contracts import ControllerContext, HardwareComponent
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
@@ -25,6 +25,7 @@ from amr_description.controllers.diff_drive_parameters import DiffDriveParameter
 from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.serial_base_system import SerialBaseSystem
+from amr_description.log import Severity
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.parameters import build

@@ -8,13 +8,13 @@ from fixtures.sim.driving import Lines
 from fixtures.sim.fake_world import info_of
 import pytest
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.in_simulator import class_in_simulator
 from amr_description.hardware.mock_system import MockSystem
 from amr_description.hardware.mujoco_system import MujocoSystem
 from amr_description.hardware.serial_base_system import SerialBaseSystem
+from amr_description.log import Severity
 
 
 def class_of(plugin, simulates_mocks=True):

@@ -9,10 +9,10 @@ from fixtures.sim.driving import AMR, Lines
 from fixtures.sim.fake_world import cell, FakeWorld, info_of, PERIOD, URDF, velocity
 import pytest
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.mujoco_system import MujocoSystem
+from amr_description.log import Severity
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.sim.world import MujocoWorld
 

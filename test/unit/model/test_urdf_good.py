@@ -7,7 +7,7 @@ import pytest
 from support.paths import ROOT
 
 from amr_description.cli import check_urdf
-from amr_description.control.contracts import null_log
+from amr_description.log import null_log
 from amr_description.model import urdf
 from amr_description.sim.drop_test import drop_test
 from amr_description.sim.robot_spec import build_robot

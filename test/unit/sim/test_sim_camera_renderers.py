@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from support.camera_scenes import camera_of, state_of, take
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import RenderingError
+from amr_description.log import Severity
 from amr_description.model.frames import quaternion_from_rpy, Transform
 from amr_description.model.sensors import Distortion, Intrinsics
 from amr_description.sim.cameras.choice import ChosenRenderer

@@ -8,9 +8,9 @@ from fixtures.sim.driving import AMR, Lines
 from fixtures.sim.mecanum import CORNERS, HALF_BASE, HALF_TRACK, mecanum, OMNI, omni, RADIUS
 import pytest
 
-from amr_description.control.contracts import null_log
 from amr_description.controllers.mecanum_drive_controller import MecanumKinematics
 from amr_description.controllers.omni_wheel_drive_controller import OmniKinematics
+from amr_description.log import null_log
 from amr_description.model.frames import Transform
 from amr_description.model.rollers import Rollers
 from amr_description.sim.drop_test import drop_test

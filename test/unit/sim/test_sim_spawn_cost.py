@@ -5,8 +5,8 @@
 import pytest
 from support.control_fakes import FakeLog
 
-from amr_description.control.contracts import Severity
 from amr_description.errors import SpawnError
+from amr_description.log import Severity
 from amr_description.model.urdf import parse
 from amr_description.sim.spawn_cost import announce, cost_of, SpawnCost
 from amr_description.sim.spawning import check_name

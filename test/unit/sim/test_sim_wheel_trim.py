@@ -9,7 +9,7 @@ from fixtures.sim.arm import ARM
 from fixtures.sim.driving import AMR, Lines, ROOT
 import pytest
 
-from amr_description.control.contracts import null_log
+from amr_description.log import null_log
 from amr_description.model.frames import Transform
 from amr_description.sim import wheel_trim
 from amr_description.sim.robot_spec import build_robot

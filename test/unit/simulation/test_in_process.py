@@ -11,11 +11,11 @@ import amr_description
 from amr_description import Simulation
 from amr_description.control.contracts import Controller, Input, Output, Port
 from amr_description.control.interfaces import InterfaceRequest
-from amr_description.control.plugin_errors import log_error
 from amr_description.control.samples import CommandsSample, OdometrySample, TwistSample
 from amr_description.errors import AmrError, SimulationError, SpawnError
 from amr_description.model.frames import Transform
 from amr_description.parameters import parameter
+from amr_description.plugin_errors import log_error
 from amr_description.sim.spawning import checked_namespace
 from amr_description.simulation.log_lines import LogLines
 

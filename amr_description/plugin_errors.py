@@ -6,8 +6,8 @@ from pathlib import Path
 import sysconfig
 import traceback
 
-from amr_description.control.contracts import Log, Severity
 from amr_description.errors import AmrError
+from amr_description.log import Log, Severity
 from amr_description.text import encodable, unwrap
 
 _TRACEBACK_PERIOD = 10.0

@@ -8,16 +8,11 @@ import random
 import pytest
 from support.control_fakes import FakeController, FakeHardware, FakeLog, make_manager, MS, start
 
-from amr_description.control.contracts import (
-    Controller,
-    ControllerContext,
-    Input,
-    Port,
-    Severity,
-)
+from amr_description.control.contracts import Controller, ControllerContext, Input, Port
 from amr_description.control.interfaces import CommandInterface, InterfaceRequest, LifecycleState
 from amr_description.control.switching import Strictness
 from amr_description.errors import ControllerError
+from amr_description.log import Severity
 
 METHODS = (
     'activate',
