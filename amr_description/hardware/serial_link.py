@@ -28,11 +28,11 @@ from serial.tools import list_ports
 from amr_description.errors import HardwareError, ParameterError
 from amr_description.hardware.serial_protocol import (
     Board,
-    BoardHello,
     Disarm,
     encode,
     Error,
     Get,
+    Hello,
     LineReader,
     LONGEST_WATCHDOG,
     Message,
@@ -249,7 +249,7 @@ class SerialBoard:
 
     def _identify(self) -> Board:
         timeout = self._parameters.connect_timeout
-        status = self._exchange(lambda status: status.board, timeout, BoardHello, VERSION)
+        status = self._exchange(lambda status: status.board, timeout, Hello, VERSION)
         if status is not None:
             return self._checked(status.board)
         status = self._link.status
@@ -414,7 +414,7 @@ class SerialLink:
 
     def _write(self, question: Question) -> None:
         self._serial.write(encode(question))
-        if self._asked_at is None and not isinstance(question, BoardHello):
+        if self._asked_at is None and not isinstance(question, Hello):
             self._asked_at = time.monotonic()
 
     def _is_free(self) -> bool:

@@ -97,7 +97,7 @@ class Reason(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class BoardHello:
+class Hello:
     """``HELLO``."""
 
     number: int
@@ -166,7 +166,7 @@ class Error:
     reason: Reason
 
 
-Question: TypeAlias = BoardHello | Get | Arm | Set | Disarm
+Question: TypeAlias = Hello | Get | Arm | Set | Disarm
 Answer: TypeAlias = Board | State | Error
 Message: TypeAlias = Question | Answer
 
@@ -224,7 +224,7 @@ _VELOCITY = _Field(
 )
 
 _LAYOUTS: dict[type[Message], tuple[_Field, ...]] = {
-    BoardHello: (_U16, _U16),
+    Hello: (_U16, _U16),
     Get: (_U16,),
     Arm: (_U16, _U16),
     Set: (_U16, _VELOCITY, _VELOCITY),

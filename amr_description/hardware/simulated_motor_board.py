@@ -15,11 +15,11 @@ from amr_description.hardware.serial_protocol import (
     Answer,
     Arm,
     Board,
-    BoardHello,
     BoardMode,
     Disarm,
     encode,
     Error,
+    Hello,
     LineReader,
     LONGEST_WATCHDOG,
     Message,
@@ -122,7 +122,7 @@ class SimulatedMotorBoard:
         match message:
             case Refused(reason=reason):
                 return Error(reason)
-            case BoardHello(number):
+            case Hello(number):
                 limits = self._constants
                 return Board(number, VERSION, self._name, limits.ticks, limits.velocity)
             case Arm(watchdog=watchdog):

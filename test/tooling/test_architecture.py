@@ -35,10 +35,10 @@ BUDGETS = {
     'modules': 822,
     'code lines': 90_372,
     'small modules of one importer beside them': 45,
-    'class names used twice': 33,
+    'class names used twice': 34,
     'modules excused from a check of types': 46,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_394,
+    'code lines of helpers in test files': 25_392,
 }
 
 BASE = {

@@ -30,11 +30,11 @@ from amr_description.hardware.serial_link import SerialLink
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
-    BoardHello,
     BoardMode,
     Disarm,
     encode,
     Get,
+    Hello,
     LineReader,
     Refused,
     Set,
@@ -205,7 +205,7 @@ def test_a_board_that_is_slow_to_start_is_waited_for(plugged, board):
 def test_answers_to_an_earlier_host_are_ignored(plugged, board):
     with Path(plugged.port).open('wb') as earlier:
         for _ in range(100):
-            earlier.write(encode(BoardHello(1, 1)) + encode(Get(1)))
+            earlier.write(encode(Hello(1, 1)) + encode(Get(1)))
     until(lambda: len(received(board)) == 200)
     board.left.position = 1000.0
     rig = Rig(plugged.port)

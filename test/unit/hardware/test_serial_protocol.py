@@ -14,7 +14,6 @@ from amr_description.hardware import serial_protocol
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
-    BoardHello,
     BoardMode,
     decode,
     Disarm,
@@ -22,6 +21,7 @@ from amr_description.hardware.serial_protocol import (
     Error,
     Get,
     GREATEST_VELOCITY,
+    Hello,
     LineReader,
     LONGEST_LINE,
     LONGEST_WATCHDOG,
@@ -40,7 +40,7 @@ I32 = st.integers(-(2**31), 2**31 - 1)
 VELOCITIES = st.integers(-100_000_000, 100_000_000).map(lambda n: n / 10_000)  # of four digits
 NAMES = st.from_regex('[A-Za-z0-9_-]{1,16}', fullmatch=True)
 MESSAGES = st.one_of(
-    st.builds(BoardHello, U16, U16),
+    st.builds(Hello, U16, U16),
     st.builds(Get, U16),
     st.builds(Arm, U16, U16),
     st.builds(Set, U16, VELOCITIES, VELOCITIES),
@@ -156,7 +156,7 @@ def test_the_page_lists_every_line_with_its_fields():
     cells = re.findall('^``([A-Z<][^`]*)``(?:  |$)', DOC, re.MULTILINE)
     lines = '\n'.join(cells).replace('\n<', '<').splitlines()
     listed = {line.split(',')[0]: line.count('<') for line in lines}
-    kinds = (BoardHello, Get, Arm, Set, Disarm, Board, State, Error)
+    kinds = (Hello, Get, Arm, Set, Disarm, Board, State, Error)
     assert listed == {kind.__name__.upper(): len(fields(kind)) for kind in kinds}
 
 
@@ -179,9 +179,7 @@ def test_what_is_not_finite_or_huge_is_not_written(value):
         encode(Set(1, 0.0, value))
 
 
-@pytest.mark.parametrize(
-    'message', [BoardHello(-1, 0), BoardHello(2**16, 0), Board(1, 1, 'a b', 1, 1.0)]
-)
+@pytest.mark.parametrize('message', [Hello(-1, 0), Hello(2**16, 0), Board(1, 1, 'a b', 1, 1.0)])
 def test_what_has_no_place_in_a_line_is_not_written(message):
     with pytest.raises(HardwareError, match='is no field of a line; it must'):
         encode(message)

@@ -10,12 +10,12 @@ import pytest
 from amr_description.hardware.serial_protocol import (
     Arm,
     Board,
-    BoardHello,
     BoardMode,
     Disarm,
     encode,
     Error,
     Get,
+    Hello,
     LineReader,
     Reason,
     Set,
@@ -33,7 +33,7 @@ SPEEDS = st.floats(-30.0, 30.0)
 TIMES = st.lists(st.floats(1e-4, 0.1), min_size=1, max_size=20)
 NUMBERS = st.integers(0, 65535)
 REQUESTS = st.one_of(
-    st.builds(BoardHello, NUMBERS, st.integers(0, 9)),
+    st.builds(Hello, NUMBERS, st.integers(0, 9)),
     st.builds(Get, NUMBERS),
     st.builds(Arm, NUMBERS, st.integers(0, 6000)),
     st.builds(Set, NUMBERS, st.floats(-40.0, 40.0), st.floats(-40.0, 40.0)),
@@ -117,7 +117,7 @@ def test_every_line_has_one_answer_and_the_motors_never_exceed_their_limit(reque
     bench = Bench()
     for request in requests:
         answer = bench.ask(request)
-        expected = Board if isinstance(request, BoardHello) else State | Error
+        expected = Board if isinstance(request, Hello) else State | Error
         assert isinstance(answer, expected)
         assert isinstance(answer, Error) or answer.number == request.number
         bench.wait(0.1)
@@ -128,7 +128,7 @@ def test_every_line_has_one_answer_and_the_motors_never_exceed_their_limit(reque
 
 
 def test_introduces_itself_with_the_number_of_the_question(bench):
-    assert bench.ask(BoardHello(7, 99)) == Board(7, VERSION, 'simulated', 4096, 30.0)
+    assert bench.ask(Hello(7, 99)) == Board(7, VERSION, 'simulated', 4096, 30.0)
 
 
 def test_turns_as_commanded_and_answers_with_its_state(armed):
@@ -157,7 +157,7 @@ def test_watchdog_stops_the_motors_and_the_next_command_goes_on(armed):
     ]
 
 
-@pytest.mark.parametrize('fodder', [Get(1), BoardHello(1, 1), Set(1, 31.0, 0.0)])
+@pytest.mark.parametrize('fodder', [Get(1), Hello(1, 1), Set(1, 31.0, 0.0)])
 def test_only_a_valid_command_resets_the_watchdog(armed, fodder):
     for _ in range(30):
         armed.ask(fodder)
