@@ -10,7 +10,7 @@ from . import say, SetupError
 from .checkout import Checkout
 
 NEEDED = 700
-"""MB on the disk of the checkout: 480 of them stay."""
+"""MB on the disk of the checkout: 560 of them stay at most."""
 INDEX = 'https://pypi.org/simple'
 FILES = 'files.pythonhosted.org'
 """Where the index of PyPI has its files."""
