@@ -13,16 +13,22 @@ from amr_description.cli.doctor.greeting import count, Summary
 from amr_description.cli.doctor.reports import print_reports
 from amr_description.doctor import report
 from amr_description.doctor.findings import error, warning
-from amr_description.doctor.observations.graph import Endpoint, Graph, GraphNode, Qos, Topic
+from amr_description.doctor.observations.graph import (
+    GraphNode,
+    ObservedEndpoint,
+    ObservedGraph,
+    ObservedQos,
+    ObservedTopic,
+)
 from amr_description.text import one_line
 
 STRING = 'std_msgs/msg/String'
-TALKER = Endpoint(node='/talker', type_name=STRING, qos=Qos(is_reliable=False))
-LISTENER = Endpoint(node='/listener', type_name=STRING)
+TALKER = ObservedEndpoint(node='/talker', type_name=STRING, qos=ObservedQos(is_reliable=False))
+LISTENER = ObservedEndpoint(node='/listener', type_name=STRING)
 SEEN = replace(
     host(processes=[SIMULATOR]),
-    graph=Graph(
-        topics=(Topic(name='/topic', publishers=(TALKER,), subscriptions=(LISTENER,)),),
+    graph=ObservedGraph(
+        topics=(ObservedTopic(name='/topic', publishers=(TALKER,), subscriptions=(LISTENER,)),),
         nodes=(GraphNode(name='/talker'), GraphNode(name='/listener')),
     ),
 )
