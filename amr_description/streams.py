@@ -61,7 +61,7 @@ def keep_libraries_off_stdout() -> None:
         return
     previous = sys.stdout
     sys.stdout = os.fdopen(ours, 'w', encoding=previous.encoding, errors=previous.errors)
-    sys.stdout.reconfigure(line_buffering=previous.line_buffering)
+    sys.stdout.reconfigure(line_buffering=bool(previous.line_buffering))
 
 
 def never_wait_for_stderr() -> None:

@@ -83,7 +83,7 @@ def with_arguments_of(other: Callable[..., object]) -> Callable[[F], F]:
             for parameter in given.values()
             if parameter.kind is not parameter.VAR_KEYWORD
         ]
-        function.__signature__ = own.replace(parameters=parameters)
+        vars(function)['__signature__'] = own.replace(parameters=parameters)
         function.__annotations__ = {**other.__annotations__, **function.__annotations__}
         return function
 

@@ -409,10 +409,10 @@ class After(Condition):
 
     def evaluate(self, state: StackState) -> Verdict:
         due = self.due(state)
-        if due is None:
-            verdict = self.condition.evaluate(state)
-            return Verdict.NEVER if verdict is Verdict.NEVER else Verdict.NOT_YET
-        return Verdict.HOLDS if state.time >= due else Verdict.NOT_YET
+        if due is not None:
+            return Verdict.HOLDS if state.time >= due else Verdict.NOT_YET
+        verdict = self.condition.evaluate(state) if self.condition else None
+        return Verdict.NEVER if verdict is Verdict.NEVER else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         origin = f'since {self.condition.describe(name_of)}' if self.condition else 'of the stack'
@@ -420,9 +420,9 @@ class After(Condition):
 
     def explain_unmet(self, state: StackState, name_of: NameOf) -> str:
         due = self.due(state)
-        if due is None:
-            return self.condition.explain_unmet(state, name_of)
-        return f'{due - state.time:.1f} s are left'
+        if due is not None:
+            return f'{due - state.time:.1f} s are left'
+        return self.condition.explain_unmet(state, name_of) if self.condition else ''
 
     def resolved(self, scope: Scope) -> Condition:
         inner = self.condition.resolved(scope) if self.condition else None

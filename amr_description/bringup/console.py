@@ -88,7 +88,7 @@ class Console:
         """Whether there is a status line."""
         self._status = ''
         self._is_lent = False
-        with contextlib.suppress(AttributeError):  # not a TextIOWrapper
+        if isinstance(self._screen, io.TextIOWrapper):
             self._screen.reconfigure(errors='backslashreplace')
 
     def on_reader_gone(self, callback: Callable[[], None]) -> None:

@@ -347,7 +347,7 @@ def _check_timeout(seconds: float) -> None:
 def _conditions(members: Sequence[Member]) -> Iterator[Condition | None]:
     """Yield the conditions of a tree, but not of included stacks, which have checked theirs."""
     for member in members:
-        if not isinstance(member, Stack):
+        if isinstance(member, Node | Group):
             yield member.start_when
         if isinstance(member, Group):
             yield from _conditions(member.members)

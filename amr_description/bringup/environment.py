@@ -110,7 +110,8 @@ def variables(options: Namespace, environment: Mapping[str, str]) -> dict[str, s
     chosen = {}
     for variable, flag in _OPTIONS.items():
         if flag in given:
-            values = given[flag] if isinstance(given[flag], list) else [given[flag]]
+            value = given[flag]
+            values = value if isinstance(value, list) else [value]
             checked = [_CHECKS[variable](value, f'{flag} {value}') for value in values]
             chosen[variable] = ';'.join(checked)
         elif environment.get(variable):

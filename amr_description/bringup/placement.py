@@ -45,7 +45,7 @@ class Placement:
 
     def __init__(self, stack: Stack) -> None:
         """Flatten the stack."""
-        self._stacks: dict[Stack, str] = {}
+        self._stacks: dict[Member, str] = {}
         found = list(self._walk(stack, _Inherited(stack.timeout)))
         self.nodes = [self._resolve(node, inherited) for node, inherited in found]
         """In the order of the tree."""
@@ -65,10 +65,12 @@ class Placement:
         if isinstance(member, Node):
             yield member, inherited
             return
+        inner = inherited
+        members: Sequence[Member] = ()
         if isinstance(member, Stack):
             self._stacks[member] = inherited.namespace or '/'
             inner, members = replace(inherited, timeout=member.timeout), member.nodes
-        else:
+        elif isinstance(member, Group):
             inner, members = _with_group(inherited, member), member.members
         for each in members:
             yield from self._walk(each, inner)

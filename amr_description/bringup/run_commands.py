@@ -128,7 +128,7 @@ def _phase(run: State) -> str:
 def _row(
     name: str, state: str, pid: int | None, since: float | None, used: dict[int, Usage]
 ) -> str:
-    if pid not in used:
+    if pid not in used or since is None:
         return _COLUMNS.format(name, state, '', '', '', '')
     usage = used[pid]
     cpu, memory = _CPU.format(100 * usage.cpu), _MEMORY.format(usage.memory / 1e6)

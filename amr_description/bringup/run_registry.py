@@ -185,7 +185,7 @@ def _draft(path: Path) -> Path:
     return path.with_suffix('.draft')
 
 
-def _node_changes(event: Event) -> State:
+def _node_changes(event: Mapping[str, Any]) -> State:
     """Return the changes of a node's state by an event."""
     match event['event']:
         case 'waiting':

@@ -50,7 +50,7 @@ def complete(parser: LazyParser) -> NoReturn:
     for action in parsers[-1]._actions:
         name = _completer_of(parsers[-1], action)
         if name:
-            action.completer = Completer(name)
+            action.completer = Completer(name)  # type: ignore[attr-defined]  # for argcomplete
     argcomplete.autocomplete(
         parser,
         always_complete_options=False,

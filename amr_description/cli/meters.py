@@ -181,8 +181,8 @@ class RateMeter:
     def add(self, now: int) -> bool:
         """Add a message; return False, and clear the window, if time has jumped back."""
         if self._last is not None and now < self._last:
-            self.__init__(self._intervals.maxlen or 0)
-            self._last = now
+            self._intervals.clear()
+            self._last, self._reported = now, None
             return False
         if self._last is not None:
             self._intervals.append(now - self._last)

@@ -175,7 +175,7 @@ def _start(
     try:
         return os.posix_spawnp(
             command[0],
-            command,
+            [*command],
             environment,
             setsigmask=mask,
             setsigdef=(signal.SIGPIPE, signal.SIGXFSZ),  # which Python ignores

@@ -119,11 +119,12 @@ def controllers_activity(
     """Check the controllers; ``measured``: None without hardware."""
     report = Report()
     controllers = measured.snapshot.controllers if measured else ()
+    updates = measured.updates if measured else {}
     checks = _CycleChecks(report, thresholds.controllers, measured.update_rate if measured else 0)
     for controller in controllers:
         report.add(f'{controller.name}.state', controller.state.label)
         if controller.state is LifecycleState.ACTIVE:
-            found = measured.updates[controller.name]
+            found = updates[controller.name]
             checks.check(controller.name, '', controller.update_rate, found)
     are_active = all(each.state is LifecycleState.ACTIVE for each in controllers)
     report.merge(

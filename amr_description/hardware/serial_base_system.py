@@ -161,7 +161,7 @@ class SerialBaseSystem(HardwareComponent):
         """Update the states from the latest message. Raises HardwareError: the board is lost."""
         board = self._connected()
         state = board.state
-        if state is not self._state:
+        if state is not None and state is not self._state:
             self._check(state)
             self._update_states(state)
         if not self._is_active:

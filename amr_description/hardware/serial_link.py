@@ -209,7 +209,7 @@ class SerialBoard:
         """
         self._raise_if_lost(self._link.status)
         number = next(self._numbers) % 2**16
-        self._link.post(kind(number, *values))
+        self._link.post(kind(number, *values))  # type: ignore[arg-type]
         return number
 
     @property
@@ -232,7 +232,7 @@ class SerialBoard:
         """
         timeout = self._parameters.answer_timeout
         status = self._exchange(lambda status: status.state, timeout, kind, *values)
-        if status is None:
+        if status is None or status.state is None:
             raise self.failure(f'has not answered {kind.__name__.upper()} within {timeout:g} s')
         return status.state
 
@@ -250,7 +250,7 @@ class SerialBoard:
     def _identify(self) -> Board:
         timeout = self._parameters.connect_timeout
         status = self._exchange(lambda status: status.board, timeout, Hello, VERSION)
-        if status is not None:
+        if status is not None and status.board is not None:
             return self._checked(status.board)
         status = self._link.status
         lines = f'{status.refused} lines such as {status.last_refused!r}'
@@ -505,8 +505,8 @@ def open_port(port: str, baud_rate: int, write_timeout: float) -> serial.Serial:
 def _why(port: str, error: Exception) -> str:
     """Return why a port cannot be opened, and a remedy."""
     # pyserial passes on the error number of a failed open, but not of a failed termios call.
-    is_termios = isinstance(error.__context__, termios.error)
-    code = error.__context__.args[0] if is_termios else getattr(error, 'errno', None)
+    cause = error.__context__
+    code = cause.args[0] if isinstance(cause, termios.error) else getattr(error, 'errno', None)
     if code == errno.ENOENT:
         there = ', '.join(found.device for found in list_ports.comports()) or 'none'
         return f'there is no such file; is the board connected? Ports that are there: {there}'

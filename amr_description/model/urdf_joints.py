@@ -206,7 +206,9 @@ def _number(
 
 def _vector_words(element: etree._Element | None, *attributes: str) -> list[str]:
     """Return the message of urdfdom for the first malformed vector; [] if all are well-formed."""
-    for attribute in attributes if element is not None else ():
+    if element is None:
+        return []
+    for attribute in attributes:
         text = element.get(attribute, '0 0 0')
         parts = text.split()
         for part in parts:

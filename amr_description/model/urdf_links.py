@@ -95,9 +95,14 @@ def read_origin(element: etree._Element, reader: ElementReader) -> Transform:
     origin = element.find('origin')
     if origin is None:
         return Transform()
-    xyz = reader.numbers(origin, 'xyz', 3, _ZERO)
-    rpy = reader.numbers(origin, 'rpy', 3, _ZERO)
+    xyz = reader.vector(origin, 'xyz', _ZERO)
+    rpy = reader.vector(origin, 'rpy', _ZERO)
     return Transform.from_xyz_rpy(xyz, rpy)
+
+
+def _rgba(reader: ElementReader, color: etree._Element) -> tuple[float, float, float, float]:
+    red, green, blue, alpha = reader.numbers(color, 'rgba', 4)
+    return red, green, blue, alpha
 
 
 def _read_inertial(element: etree._Element, reader: ElementReader) -> Inertial:
@@ -157,13 +162,13 @@ def _read_geometry(element: etree._Element, reader: ElementReader) -> Geometry |
         return None
     match shape.tag:
         case 'box':
-            return Box(reader.numbers(shape, 'size', 3))
+            return Box(reader.vector(shape, 'size'))
         case 'cylinder':
             return Cylinder(reader.number(shape, 'radius'), reader.number(shape, 'length'))
         case 'sphere':
             return Sphere(reader.number(shape, 'radius'))
         case 'mesh':
-            scale = reader.numbers(shape, 'scale', 3, (1.0, 1.0, 1.0))
+            scale = reader.vector(shape, 'scale', (1.0, 1.0, 1.0))
             return Mesh(reader.required(shape, 'filename'), scale)
     reader.warning(
         shape, 'unknown geometry', found=f'<{shape.tag}>', expected=expected, taken=NO_SHAPE
@@ -182,7 +187,7 @@ def read_material(element: etree._Element, reader: ElementReader) -> Material:
         texture = None
     return Material(
         name=name or '',
-        color=None if color is None else reader.numbers(color, 'rgba', 4),
+        color=None if color is None else _rgba(reader, color),
         texture=None if texture is None else texture.get('filename', '').strip(),
     )
 

@@ -18,6 +18,7 @@ from lxml import etree
 
 from amr_description.errors import DescriptionError
 from amr_description.model.findings import Finding, Report
+from amr_description.model.frames import Vector
 from amr_description.model.plain_xml import plain_xml
 from amr_description.text import quote
 
@@ -165,6 +166,16 @@ class ElementReader:
         """Return one finite number, or the default if it is missing; NaN after a report."""
         fallback = None if default is None else (default,)
         return self.numbers(element, attribute, 1, fallback)[0]
+
+    def vector(
+        self,
+        element: etree._Element,
+        attribute: str,
+        default: Vector | None = None,
+    ) -> Vector:
+        """Return three numbers; see :meth:`numbers`."""
+        x, y, z = self.numbers(element, attribute, 3, default)
+        return x, y, z
 
     def numbers(
         self,

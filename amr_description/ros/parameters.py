@@ -5,7 +5,7 @@
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from copy import copy
 import dataclasses
-from typing import Any, TypeVar
+from typing import Any, cast, TypeVar
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
@@ -199,7 +199,9 @@ def _declare(node: Node, spec: Spec) -> None:
         return
     # An empty list has no type of its own in rclpy: the type is declared, then the value is set.
     if node.declare_parameter(spec.name, array_type).type_ == Parameter.Type.NOT_SET:
-        node.set_parameters([Parameter(spec.name, array_type, list(spec.default))])
+        node.set_parameters(
+            [Parameter(spec.name, array_type, [*cast('tuple[Any, ...]', spec.default)])]
+        )
     descriptor = _descriptor(spec)
     descriptor.type = array_type.value
     node.set_descriptor(spec.name, descriptor)

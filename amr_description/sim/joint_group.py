@@ -55,6 +55,7 @@ class MujocoJointGroup:
         self._names = tuple(joint.name for joint in joints)
         self._actuators = actuators
         self._log = log
+        self._known_changes = -1
         self._written: Sequence[float] | None = None
         """The values in force, as long as nobody switches or commands the joints."""
         self._bind()

@@ -95,7 +95,7 @@ def _shape(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> VisibleShap
         kind=kind,
         size=size,
         position=_vector(data.geom_xpos[geom]),
-        rotation=xyzw_from_wxyz(rotation),
+        rotation=xyzw_from_wxyz(rotation.tolist()),
         color=_color(model, geom),
         points=points,
     )

@@ -95,9 +95,9 @@ class Buffer(BufferInterface):
         with self._changed:
             warning = self._core.set_transform(stamped, authority, static=static)
             self._changed.notify_all()
-            due = warning is not None and self._is_due(warning)
-        if due:
-            self._warn(warning)
+            due = warning if warning is not None and self._is_due(warning) else None
+        if due is not None:
+            self._warn(due)
         if self._awaited:
             self._complete_futures()
 
@@ -286,7 +286,7 @@ class Buffer(BufferInterface):
 
         It would become the latest of its frame, so that all that follow were too old.
         """
-        if not self._time_jumps.is_recent:
+        if self._clock is None or not self._time_jumps.is_recent:
             return False
         self._time_jumps.observe(self._clock.now().nanoseconds)
         return self._time_jumps.is_stale(stamp)

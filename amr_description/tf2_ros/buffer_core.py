@@ -116,7 +116,7 @@ class BufferCore:
             text = (
                 f'TF_OLD_DATA ignoring data from the past for frame {stamped.child} at time '
                 f'{seconds(stamped.time)} according to authority {authority}; the latest is at '
-                f'{seconds(self._tree.get(stamped.child).latest_time)}'
+                f'{seconds(self._tree[stamped.child].latest_time)}'
             )
             return InputWarning(text, True, ('TF_OLD_DATA', stamped.child))
         warning = self._conflicts.observe(stamped, authority, static=static)
@@ -179,7 +179,7 @@ class BufferCore:
         """Return the latest time at which the whole chain is known, ns; 0: all of it is static."""
         self._require(target_frame=target, source_frame=source)
         down, up = self._tree.branches(target, source)
-        frames = [self._tree.get(name) for name in (*down[:-1], *up[:-1])]
+        frames = [self._tree[name] for name in (*down[:-1], *up[:-1])]
         times = (frame.latest_time for frame in frames)  # 0 of what is static
         return min((time for time in times if time != LATEST), default=LATEST)
 

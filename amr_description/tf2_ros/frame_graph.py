@@ -66,6 +66,10 @@ class FrameTree:
         """Return whether a frame of that name has come up, with a parent or as one."""
         return name in self._names
 
+    def __getitem__(self, name: str) -> Frame:
+        """Return the poses of a frame that has a parent, in that."""
+        return self._frames[name]
+
     def get(self, name: str) -> Frame | None:
         """Return the poses of a frame in its parent; None if it has no parent."""
         return self._frames.get(name)

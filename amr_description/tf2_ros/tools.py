@@ -30,7 +30,7 @@ def arguments_of(args: list[str] | None) -> list[str]:
 def listening(
     name: str,
     args: list[str] | None,
-    listener: Callable[..., Listener] = TransformListener,
+    listener: Callable[..., Listener] = TransformListener,  # type: ignore[assignment]
     **options: Any,
 ) -> Iterator[tuple[Node, Buffer, Listener]]:
     """

@@ -454,7 +454,7 @@ def decode(frame: str) -> ClientMessage:
         known = ', '.join(_BY_TYPE)
         raise ProtocolError(f'a frame of type {_show(kind)} is not known; there are: {known}')
     values = {
-        each.name: _value(found, each.name, _READERS[each.type], kind)
+        each.name: _value(found, each.name, _READERS[each.type], str(kind))
         for each in fields(message)
         if each.name in found or each.default is each.default_factory is MISSING
     }

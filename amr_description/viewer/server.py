@@ -197,7 +197,7 @@ class Server:
             close_timeout=_CLOSE_TIMEOUT,
             max_size=_LARGEST_FRAME,
             logger=quiet,
-            create_connection=self._connection,
+            create_connection=self._connection,  # type: ignore[arg-type]  # what makes one will do
         )
         await self._stopping.wait()
         self._stop_states()

@@ -98,5 +98,8 @@ def _size(robot: RobotLayout) -> int:
 def _parts(floats: Floats, robot: RobotLayout) -> RobotFloats:
     joints = len(robot.joints)
     lengths = (*[joints] * JOINT_FLOATS, MOTION_FLOATS, MOTION_FLOATS, COMMAND_FLOATS)
-    *parts, wheels = np.split(floats, np.cumsum(lengths))
-    return RobotFloats(*parts, wheels.reshape(-1, WHEEL_FLOATS))
+    places, speeds, commanded, odometry, truth, command, wheels = np.split(
+        floats, np.cumsum(lengths)
+    )
+    wheels = wheels.reshape(-1, WHEEL_FLOATS)
+    return RobotFloats(places, speeds, commanded, odometry, truth, command, wheels)

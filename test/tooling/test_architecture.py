@@ -33,10 +33,10 @@ FEW_LINES = 80
 # the page) and what a request may name.
 BUDGETS = {
     'modules': 822,
-    'code lines': 90_372,
+    'code lines': 90_406,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
-    'modules excused from a check of types': 46,
+    'modules excused from a check of types': 12,
     'modules with many public names': 27,
     'code lines of helpers in test files': 25_392,
 }

@@ -46,7 +46,7 @@ def typed(text: str) -> Value:
     try:
         value = read_value(text)
     except AmrError as error:
-        if isinstance(error.__cause__.__cause__, yaml.parser.ParserError):
+        if isinstance(error.__cause__ and error.__cause__.__cause__, yaml.parser.ParserError):
             return text  # '[left' may be meant, and the genuine command takes it
         quoting = f'; for a string write {_quoted(text)}' if shorten(text) == text else ''
         raise AmrError(f'{error}{quoting}') from error

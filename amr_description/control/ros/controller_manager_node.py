@@ -271,4 +271,5 @@ class StatusTopics:
             self._loop_thread.submit(self._apply)
 
     def _apply(self) -> None:
-        self._manager.warns_of_overruns = self._may_overrun and self._warns_of_overruns
+        if self._manager is not None:
+            self._manager.warns_of_overruns = self._may_overrun and self._warns_of_overruns

@@ -133,7 +133,7 @@ class LoopThread:
         self._executor = executor
         self._thread = threading.Thread(target=self._run, name='control_loop')
         self._watchdog = LoopWatchdog(
-            calls, lambda severity, text: self.log(severity, text), watchdog_clock
+            calls, lambda severity, text, *, throttle=0.0: self.log(severity, text), watchdog_clock
         )
 
     def start(self) -> None:

@@ -239,7 +239,8 @@ class IntrospectionTopics:
             for each in wanted:
                 each.send(time)
 
-        self._manager.on_tick = send if wanted else None
+        if self._manager is not None:
+            self._manager.on_tick = send if wanted else None
 
 
 def fill_values(sample: RegistrySample, message: StatisticsValues) -> None:

@@ -94,7 +94,7 @@ def manoeuvres(linear: float, angular: float, distance: float) -> tuple[Manoeuvr
 
 def report(runs: Sequence[CalibrationRun], before: Geometry, after: Geometry) -> str:
     """Return the table of errors: of the angle, or for straight runs, of the distance."""
-    rows = [('run', 'true', 'before', 'error', 'after', 'error')]
+    rows: list[tuple[str, ...]] = [('run', 'true', 'before', 'error', 'after', 'error')]
     for run in runs:
         turns = not math.isnan(yaw_error(run, before))
         truth = run.truth.turn if turns else run.truth.distance

@@ -19,7 +19,7 @@ The parameters are in :class:`RobotStatePublisherSettings`; all can be set at ru
 ``robot_description`` is rejected, and the present one kept.
 
 Transforms have the stamp of their joint state. As in the original, messages are throttled by these
-stamps (``robot_state.Throttle``). It differs from the original as follows:
+stamps (``robot_state.JointThrottle``). It differs from the original as follows:
 
 * a joint state with a zero stamp, which the original never publishes, is treated as stamped on
   arrival, and so are its transforms: TF cannot use stamp 0;

@@ -65,10 +65,12 @@ class RobotState:
         multiplier · source + offset, also along a chain of mimics. Names of other joints, and
         positions that are not finite, are ignored.
         """
-        known = dict(positions) if self._mimics else positions
-        for joint, mimic in self._mimics:
-            if joint not in known and mimic.joint in known:
-                known[joint] = mimic.multiplier * known[mimic.joint] + mimic.offset
+        known = positions
+        if self._mimics:
+            known = completed = dict(positions)
+            for joint, mimic in self._mimics:
+                if joint not in completed and mimic.joint in completed:
+                    completed[joint] = mimic.multiplier * completed[mimic.joint] + mimic.offset
         return [
             _link_transform(self._moving[name], known[name])
             for name in sorted(known)

@@ -42,8 +42,9 @@ def create_services(node: Node, log: Log, handlers: Iterable[tuple[type, Handler
 
 def fill_error(result: Result, error: Exception) -> None:
     """Write the code and the message of an error, in one line, into a result."""
-    is_coded = isinstance(error, RequestError)
-    result.result = error.code if is_coded else Result.RESULT_OPERATION_FAILED
+    result.result = Result.RESULT_OPERATION_FAILED
+    if isinstance(error, RequestError):
+        result.result = error.code
     result.error_message = unwrap(describe(error))
 
 

@@ -177,8 +177,12 @@ class ServiceClients:
         except InvalidHandle:  # the ROS thread has destroyed it in the meantime
             raise ViewerError(f'service {name} has gone; is its node running?') from None
 
+        def answer() -> None:
+            if not answered.done():
+                answered.set_result(None)
+
         def settle(_: Future) -> None:
-            loop.call_soon_threadsafe(lambda: answered.done() or answered.set_result(None))
+            loop.call_soon_threadsafe(answer)
 
         pending.add_done_callback(settle)
         try:
