@@ -130,7 +130,7 @@ class NavigatorParameters(SurroundingsSettings, NavigationDriveSettings):
     robot_radius: float = parameter(0.1, 'Of a round robot', unit='m', above=0.0, read_only=True)
 
 
-class Navigator(Node):
+class NavigatorNode(Node):
     """The node."""
 
     def __init__(self) -> None:
@@ -432,7 +432,7 @@ def main(args: list[str] | None = None) -> int:
     """Navigate until asked to stop."""
     if print_help(args, 'navigator', _PURPOSE, NavigatorParameters):
         return 0
-    return run(Navigator, args)
+    return run(NavigatorNode, args)
 
 
 if __name__ == '__main__':

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from amr_description.viewer.joint_groups import ACTIONS, is_joint_command, POSITIONS, TRAJECTORY
-from amr_description.viewer.navigation import NavigatorClient
+from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.protocol import Command, SensorInfo
 
 STRING = 'std_msgs/msg/String'
@@ -126,7 +126,7 @@ class DiscoveredGraph:
     tf_namespaces: tuple[str, ...] = ()
     """Namespaces with a TF of their own, such as ``/robot1`` of ``/robot1/tf``."""
     sensors: tuple[SensorInfo, ...] = ()
-    navigators: tuple[NavigatorClient, ...] = ()
+    navigators: tuple[Navigator, ...] = ()
 
 
 def discover(names: GraphNames) -> DiscoveredGraph:
@@ -282,7 +282,7 @@ def _sensors(names: GraphNames, ids: Iterable[str]) -> Iterator[SensorInfo]:
         yield SensorInfo(topic, robot, SENSORS[message], message)
 
 
-def _navigators(names: GraphNames, ids: AbstractSet[str]) -> Iterator[NavigatorClient]:
+def _navigators(names: GraphNames, ids: AbstractSet[str]) -> Iterator[Navigator]:
     """Yield who hears of goals and poses; of one robot that is alone also by names outside it."""
     alone = next(iter(ids)) if len(ids) == 1 else None
 
@@ -300,7 +300,7 @@ def _navigators(names: GraphNames, ids: AbstractSet[str]) -> Iterator[NavigatorC
         feedback = ends_of(
             names.published, NAVIGATE_FEEDBACK, f'/navigate_to_pose{_FEEDBACK}', robot
         )
-        found = NavigatorClient(
+        found = Navigator(
             robot,
             ends_of(names.subscribed, GOAL, '/goal_pose', robot),
             feedback and feedback.removesuffix(_FEEDBACK),

@@ -11,7 +11,7 @@ from typing import ClassVar, Literal
 
 
 @dataclass(frozen=True, slots=True)
-class NavigatorClient:
+class Navigator:
     """Who hears of a robot's goals and of its pose; ``None``: nobody does."""
 
     robot: str

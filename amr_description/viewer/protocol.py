@@ -20,7 +20,7 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from amr_description.model.frames import Quaternion, Vector
 from amr_description.viewer.bags import BagWriting, Playhead, Recording
 from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
-from amr_description.viewer.navigation import GoalStatus, NavigatorClient
+from amr_description.viewer.navigation import GoalStatus, Navigator
 
 PROTOCOL = 'amr.v1'
 """The WebSocket's subprotocol: a page of another version is refused."""
@@ -111,7 +111,7 @@ class Graph:
     #: what to do when there is nothing to see: "nothing publishes /robot_description; start …"
     hint: str | None
     sensors: tuple[SensorInfo, ...] = ()
-    navigators: tuple[NavigatorClient, ...] = ()
+    navigators: tuple[Navigator, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,7 @@ from amr_description.ros.rclpy_internals import RCLError
 from amr_description.ros.service_calls import ActionReadiness
 from amr_description.text import shorten
 from amr_description.viewer.graph import NAVIGATE
-from amr_description.viewer.navigation import GoalStatus, NavigatorClient
+from amr_description.viewer.navigation import GoalStatus, Navigator
 from amr_description.viewer.requests import SetGoal, SetInitialPose
 from amr_description.viewer.ros.on_thread import on_ros_thread
 
@@ -50,7 +50,7 @@ _SHORTEST = 0.05
 class _Ends:
     """The publishers to one navigator, and the client of its action; made on the ROS thread."""
 
-    def __init__(self, node: Node, navigator: NavigatorClient) -> None:
+    def __init__(self, node: Node, navigator: Navigator) -> None:
         self.navigator = navigator
         self.goal: Publisher | None = None
         self.initial_pose: Publisher | None = None
@@ -106,7 +106,7 @@ class Goals:
         tell: Callable[[GoalStatus], object],
         call: Callable[[Callable[[], object]], object],
     ) -> None:
-        self.navigators: tuple[NavigatorClient, ...] = ()
+        self.navigators: tuple[Navigator, ...] = ()
         """Who takes goals and poses; the ROS thread replaces it."""
         self._node = node
         self._executor = executor
@@ -121,7 +121,7 @@ class Goals:
 
     # --- on the ROS thread -----------------------------------------------------------------------
 
-    def find(self, navigators: Sequence[NavigatorClient], tf_namespaces: Sequence[str]) -> None:
+    def find(self, navigators: Sequence[Navigator], tf_namespaces: Sequence[str]) -> None:
         """
         Follow a change of the graph.
 
@@ -334,7 +334,7 @@ def _cancel(goal: _Goal) -> None:
         goal.handle.cancel_goal_async()
 
 
-def _usable(navigator: NavigatorClient) -> NavigatorClient:
+def _usable(navigator: Navigator) -> Navigator:
     """Return a navigator without an action whose type is not installed here."""
     try:
         action_type(NAVIGATE)

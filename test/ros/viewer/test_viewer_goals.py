@@ -19,12 +19,12 @@ from support.waiting import until
 
 from amr_description.errors import ViewerError
 from amr_description.ros import service_calls
-from amr_description.viewer.navigation import NavigatorClient
+from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.requests import SetGoal, SetInitialPose
 from amr_description.viewer.ros import goals
 from amr_description.viewer.ros.goals import Goals
 
-NAVIGATOR = NavigatorClient('/a', '/a/goal_pose', '/a/navigate_to_pose', None)
+NAVIGATOR = Navigator('/a', '/a/goal_pose', '/a/navigate_to_pose', None)
 GOAL = SetGoal(1, '/a', 'a/map', 3.0, 4.0, 0.5)
 SECOND = 1_000_000_000
 

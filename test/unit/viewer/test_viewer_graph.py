@@ -33,7 +33,7 @@ from amr_description.viewer.graph import (
     TF,
     TWISTS,
 )
-from amr_description.viewer.navigation import NavigatorClient
+from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.protocol import Command
 
 STAMPED, PLAIN = TWISTS
@@ -276,14 +276,14 @@ def test_a_map_of_no_robot_is_for_all_and_a_path_is_its_robots():
 def test_who_hears_goals_and_poses_navigates_the_robot_of_that_namespace():
     hears = {'/a/goal_pose': [GOAL], '/a/initialpose': [INITIAL_POSE], '/b/other': [GOAL]}
     assert navigators('/a', '/b', subscribed=hears) == (
-        NavigatorClient('/a', '/a/goal_pose', None, '/a/initialpose'),
+        Navigator('/a', '/a/goal_pose', None, '/a/initialpose'),
     )
     assert navigators('/a', '/b', subscribed={'/goal_pose': [GOAL]}) == (), 'whose would it be?'
 
 
 def test_a_robot_that_is_alone_is_navigated_outside_its_namespace_too():
     hears = {'/goal_pose': [GOAL]}
-    assert navigators('/a', subscribed=hears) == (NavigatorClient('/a', '/goal_pose', None, None),)
+    assert navigators('/a', subscribed=hears) == (Navigator('/a', '/goal_pose', None, None),)
     both = {**hears, '/a/goal_pose': [GOAL]}
     assert navigators('/a', subscribed=both)[0].goal == '/a/goal_pose'
 
@@ -291,7 +291,7 @@ def test_a_robot_that_is_alone_is_navigated_outside_its_namespace_too():
 def test_the_action_is_there_as_long_as_its_server_publishes():
     feedback = '/a/navigate_to_pose/_action/feedback'
     assert navigators('/a', published=[feedback]) == (
-        NavigatorClient('/a', None, '/a/navigate_to_pose', None),
+        Navigator('/a', None, '/a/navigate_to_pose', None),
     )
     others = ['/a/spin/_action/feedback']
     assert navigators('/a', published=others) == ()
