@@ -22,12 +22,12 @@ from amr_description.ros.service_calls import call
 FAULTY = """
 from amr_description.nodes import teleop_twist_keyboard
 
-class FaultyHold(teleop_twist_keyboard.Hold):
+class FaultyHold(teleop_twist_keyboard.KeyHold):
     def press(self, key, now, **options):
         if key == '!':
             raise ZeroDivisionError('a bug')
 
-teleop_twist_keyboard.Hold = FaultyHold
+teleop_twist_keyboard.KeyHold = FaultyHold
 teleop_twist_keyboard.main([])
 """
 STAMPED_TOPIC = '/diff_drive_controller/cmd_vel'
