@@ -32,6 +32,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``wheel_slip.py``       load and slip of wheels: ground truth
 
 ``faults.py``           MuJoCo's warnings, lost states and falls, each as one line of log
+``containment.py``      a robot whose state is lost stands still, the others go on
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``wrenches.py``         pushes from outside
 ``contact_sensor.py``   a contact sensor on a robot

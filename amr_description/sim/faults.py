@@ -5,12 +5,8 @@ Faults of the physics: one line of log for each, with robot, joint, value, cause
 
 MuJoCo passes its warnings to one callback of the process; without it, it would write a
 MUJOCO_LOG.TXT into the user's folder. A step without a fault costs a look at an empty queue and at
-two numbers. Faults are reported, not repaired: a lost state stays lost until somebody resets it.
-
-Faults are not contained either: a value that is not finite in one robot is in all robots after the
-same step, because MuJoCo's solver uses one warm start for the whole world. The robot in which it
-began is reported. To keep the others going, every step would have to be repeated without that
-robot, from a state saved before.
+two numbers, and a copy of the state. A robot whose state is lost is frozen as it was before, see
+:mod:`amr_description.sim.containment`: no number that is not finite leaves the simulator.
 """
 
 from collections import deque
@@ -25,6 +21,7 @@ import numpy as np
 from amr_description.clock import NANOSECONDS
 from amr_description.log import Log, Severity
 from amr_description.sim.actuators import rotor_name
+from amr_description.sim.containment import Containment
 from amr_description.sim.engine import compiler_message, Engine
 
 LIMIT = 0.2
@@ -126,6 +123,7 @@ _warnings: deque[str] = deque(maxlen=1000)
 _BAD_VALUE = re.compile(r'value in (QPOS|QVEL|QACC|CTRL) at \w+ (\d+)')
 _QUANTITY = {'QPOS': 'position', 'QVEL': 'velocity', 'QACC': 'acceleration', 'CTRL': 'command'}
 
+_LOST = 'lost '
 _DEEP = 0.005
 """m; bodies that overlap by more are pushed apart with unphysical forces."""
 
@@ -164,16 +162,31 @@ class FaultMonitor:
         self._engine = engine
         self._log = log
         self._views = _Views(engine)
+        self._containment = Containment(engine)
         self.reset()
+
+    def bind(self) -> None:
+        """Take the present model: a robot has come or gone."""
+        self._views = _Views(self._engine)
+        self._containment.bind()
+        for fault in [each for each in self._last_seen if each.startswith(_LOST)]:
+            if fault.removeprefix(_LOST) not in self._containment.frozen:
+                del self._last_seen[fault]
 
     def reset(self) -> None:
         """Start anew: time or robots were reset."""
         _warnings.clear()
-        self._state_is_lost = False
+        self._containment.bind()
         self._last_seen: dict[str, int] = {}
         self._capped = 0
         self._tilted: dict[str, int] = {}
         self._next_slow_check = 0
+
+    def release(self, robot: str = '') -> None:
+        """Let a robot, or all that is frozen, move again: it was put elsewhere, or reset."""
+        if self._containment.holds:
+            self._containment.end(robot)
+            self.bind()
 
     def check(self, roots: Iterable[tuple[str, int]], on_wheels: Container[str] = ()) -> None:
         """
@@ -184,19 +197,22 @@ class FaultMonitor:
                 root in ``qpos``.
             on_wheels: The names of those that stand on wheels.
         """
-        while _warnings:
-            self._report_warning(_warnings.popleft())
-        if not self._state_is_lost:
+        views, containment = self._views, self._containment
+        if views.generation != self._engine.generation:
+            self.bind()
             views = self._views
-            if views.generation != self._engine.generation:
-                views = self._views = _Views(self._engine)
-            if views.has_high_speed():
-                self._check_speeds()
-            if views.is_solver_capped():
-                self._check_solver()
-            else:
-                self._capped = 0
+        if containment.holds:
+            containment.hold()
+        if _warnings:
+            self._report_warnings()
+        if views.has_high_speed():
+            self._check_speeds()
         now = self._engine.time
+        containment.keep(now)
+        if views.is_solver_capped():
+            self._check_solver()
+        else:
+            self._capped = 0
         if now >= self._next_slow_check:
             self._next_slow_check = now + SLOW_CHECK_INTERVAL
             self._check_slowly(roots, on_wheels)
@@ -204,11 +220,6 @@ class FaultMonitor:
     def _check_slowly(self, roots: Iterable[tuple[str, int]], on_wheels: Container[str]) -> None:
         data = self._engine.data
         data.warning.number[:] = 0  # else MuJoCo warns of each kind once only
-        if self._state_is_lost:
-            # The fault may have left the world with the robot that was removed.
-            if np.isfinite(data.qpos).all() and data.qvel.dot(data.qvel) < HIGHEST_SPEED**2:
-                self.reset()
-            return
         for name, index in roots:
             height = float(data.qpos[index])
             if height < FALL_HEIGHT and not has_ground(
@@ -220,42 +231,55 @@ class FaultMonitor:
 
     # --- warnings of MuJoCo -------------------------------------------------------------------
 
-    def _report_warning(self, text: str) -> None:
-        if self._state_is_lost:
-            return  # what follows from the first bad value is not reported
-        bad = _BAD_VALUE.search(text)
-        if bad is None:
-            self._report(Severity.WARN, f'mujoco {text[:20]}', f'MuJoCo: {compiler_message(text)}')
-        elif bad[1] == 'CTRL':
-            name = name_of_actuator(self._engine.model, int(bad[2]))
-            value = float(self._engine.data.ctrl[int(bad[2])])
-            self._report(
-                Severity.ERROR,
-                f'command {name}',
-                f'{name}: the command is {value:g}{self._when}; MuJoCo takes all commands of the '
-                'world as 0 then. Command finite values',
-            )
-        else:
-            self._report_lost_state(bad[1], int(bad[2]))
+    def _report_warnings(self) -> None:
+        """Report the warnings of a step; what follows from the first lost state is not one."""
+        while _warnings:
+            text = _warnings.popleft()
+            bad = _BAD_VALUE.search(text)
+            if bad is None:
+                line = f'MuJoCo: {compiler_message(text)}'
+                self._report(Severity.WARN, f'mujoco {text[:20]}', line)
+            elif bad[1] == 'CTRL':
+                self._report_command(int(bad[2]))
+            else:
+                self._lose_state(bad[1], int(bad[2]))
+                _warnings.clear()
 
-    def _report_lost_state(self, quantity: str, index: int) -> None:
-        self._state_is_lost = True
+    def _report_command(self, actuator: int) -> None:
+        name = name_of_actuator(self._engine.model, actuator)
+        value = float(self._engine.data.ctrl[actuator])
+        self._report(
+            Severity.ERROR,
+            f'command {name}',
+            f'{name}: the command is {value:g}{self._when}; MuJoCo takes all commands of the '
+            'world as 0 then. Command finite values',
+        )
+
+    def _lose_state(self, quantity: str, index: int) -> None:
+        """Freeze the robot of a number that is not finite, or huge; report it once."""
         model, data = self._engine.model, self._engine.data
         dof = dof_of_position(model, index) if quantity == 'QPOS' else index
         name = name_of_dof(model, dof)
         value = float(getattr(data, quantity.lower())[index])
+        cause = likely_cause(model, data, dof)
+        since = self._containment.freeze(name.robot, dof) / NANOSECONDS
+        whose = f"'{name.robot}'" if name.robot else 'what hangs together with it'
         self._report(
             Severity.ERROR,
-            f'lost {name}',
-            f'{name}: the {_QUANTITY[quantity]} is not finite, or huge, '
-            f'({value:g}){self._when}; the state is lost until a reset. Likely: '
-            f'{likely_cause(model, data, dof)}',
+            f'{_LOST}{name.robot or name}',
+            f'{name}: the {_QUANTITY[quantity]} is not finite, or huge, ({value:g}){self._when}; '
+            f'{whose} is frozen as it was at {since:.3f} s, until a reset; the rest goes on. '
+            f'Likely: {cause}',
         )
 
     # --- checks of the state ------------------------------------------------------------------
 
     def _check_speeds(self) -> None:
         speeds = self._engine.data.qvel
+        lost = np.flatnonzero(~np.isfinite(speeds))
+        if len(lost):  # in the last step: the next one would warn of it
+            self._lose_state('QVEL', int(lost[0]))
+            return
         dof = int(np.abs(speeds).argmax())
         speed = float(speeds[dof])
         if abs(speed) < HIGHEST_SPEED:
@@ -370,12 +394,12 @@ class _Views:
         self._iterations = memoryview(engine.data.solver_niter)
 
     def has_high_speed(self) -> bool:
-        """Return whether a velocity may be as high as HIGHEST_SPEED."""
+        """Return whether a velocity may be as high as HIGHEST_SPEED, or not finite."""
         few = self._few_speeds
         if few is not None and math.hypot(*few.tolist()) < HIGHEST_SPEED:
             return False
-        # A dot product is cheaper than a maximum; a NaN passes, and the next step warns of it.
-        return bool(self._speeds.dot(self._speeds) >= HIGHEST_SPEED**2)
+        # A dot product is cheaper than a maximum; a NaN is not below anything.
+        return not self._speeds.dot(self._speeds) < HIGHEST_SPEED**2
 
     def is_solver_capped(self) -> bool:
         """Return whether the solver, in one of its islands, has made all the iterations it may."""
@@ -504,7 +528,8 @@ def _effort_cause(model: mujoco.MjModel, data: mujoco.MjData, root: int) -> str 
             part = name_of_dof(model, int(model.jnt_dofadr[joint])).part
             return (
                 f'{part} is driven with an effort of {effort:.4g}, on an inertia of '
-                f'{inertia:.2g}: command less, or give it a <limit effort="…"> in the URDF'
+                f'{inertia:.2g}: lower the gains (p, i, d) of the controller that commands it, or '
+                'give it a <limit effort="…"> in the URDF'
             )
     return None
 

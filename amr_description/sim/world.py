@@ -278,6 +278,7 @@ class MujocoWorld:
         self.wrenches.clear_all()
         for view in self._robots.values():
             view.start()
+        self.faults.release()
         self.faults.reset()
 
     def _contacts_of(self, robot: Robot, model: RobotSpec) -> Contacts:
@@ -339,6 +340,7 @@ class MujocoWorld:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
         self._roots = tuple((name, index) for name, index in heights if index is not None)
         self._on_wheels = frozenset(name for name, view in self._robots.items() if view.wheels)
+        self.faults.bind()
 
 
 @contextmanager

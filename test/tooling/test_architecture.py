@@ -30,15 +30,16 @@ MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it. The last to
 # raise them were simulations without ROS (recordings, services, actions, frames, replays, films,
-# the page) and what a request may name.
+# the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
+# motions, the geometry of plugins, dialects of vendors).
 BUDGETS = {
-    'modules': 822,
-    'code lines': 90_406,
+    'modules': 826,
+    'code lines': 91_216,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_392,
+    'code lines of helpers in test files': 25_617,
 }
 
 BASE = {

@@ -131,9 +131,12 @@ class EntityServices:
                 Result.RESULT_OPERATION_FAILED,
             )
         world = self._world
-        await self._loop_thread.submit(
-            lambda: set_state(world.engine, world.robot(name), pose, linear, angular)
-        )
+
+        def put() -> None:
+            world.faults.release(name)
+            set_state(world.engine, world.robot(name), pose, linear, angular)
+
+        await self._loop_thread.submit(put)
 
     async def _get_entity_info(
         self, request: GetEntityInfo.Request, response: GetEntityInfo.Response

@@ -13,7 +13,9 @@ from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
 
 BESIDE = Transform((0.0, 3.0, 0.0))
-COLLISION = '<collision>', '</collision>'
+DRIVEN = [
+    f'joint_wheel_{each}' for each in ('front_left', 'front_right', 'back_left', 'back_right')
+]
 
 
 @pytest.fixture
@@ -57,7 +59,7 @@ def test_lost_state_names_robot_and_joint_once(world, log, quantity, value, word
     assert (
         f"ERROR robot 'amr': joint 'joint_wheel_front_left': the {word} is not finite" in log.text
     )
-    assert 'the state is lost until a reset' in log.text
+    assert "'amr' is frozen as it was at 0.020 s, until a reset; the rest goes on" in log.text
 
 
 def test_time_goes_on_and_a_reset_heals(world, log):
@@ -74,13 +76,69 @@ def test_time_goes_on_and_a_reset_heals(world, log):
     assert len(log.lines) == 2
 
 
+def test_the_robot_of_a_lost_state_is_frozen_and_the_others_go_on(world, log):
+    for name in ('amr', 'other'):
+        world.robot(name).joints(DRIVEN).command('velocity', [3.0] * 4)
+    for _ in range(200):
+        world.step(5)
+    amr, other = world.robot('amr').pose('base_link'), world.robot('other').pose('base_link')
+    break_wheel(world, 'qvel', math.nan)
+    for _ in range(200):
+        world.step(5)
+        data = world.engine.data
+        for array in (data.qpos, data.qvel, data.qacc, data.xpos, data.cvel, data.actuator_force):
+            assert np.isfinite(array).all()
+    assert world.robot('amr').pose('base_link') == amr
+    assert world.robot('amr').joints(DRIVEN).velocities() == [0.0] * 4
+    way = world.robot('other').pose('base_link').translation[0] - other.translation[0]
+    assert way == pytest.approx(3.0 * 0.1 * 2.0, rel=0.02)
+    assert len(log.lines) == 1
+
+
+def test_what_is_frozen_stays_so_when_robots_come_and_time_is_set_and_is_not_moved(world, log):
+    world.step(500)
+    before = world.robot('amr').pose('base_link')
+    break_wheel(world, 'qvel', math.nan)
+    world.step(5)
+    world.spawn('late', AMR, Transform((-1.5, 0.0, 0.0)))
+    world.time = 0
+    world.robot('late').joints(DRIVEN).command('velocity', [5.0] * 4)
+    for _ in range(240):
+        world.step(5)
+    assert world.robot('amr').pose('base_link') == before
+    assert world.robot('late').pose('base_link').translation[0] == pytest.approx(-0.54, abs=0.05)
+    world.remove('late')
+    world.faults.release('other')
+    world.step(100)
+    assert world.robot('amr').pose('base_link') == before
+    world.faults.release('amr')  # as who puts it elsewhere does
+    world.robot('amr').joints(DRIVEN).command('velocity', [3.0] * 4)
+    for _ in range(200):
+        world.step(5)
+    assert world.robot('amr').pose('base_link').translation[0] > 0.2
+    assert len(log.lines) == 1
+
+
+def test_a_loop_that_is_unstable_by_its_gains_is_named_and_no_nan_leaves_the_robot(log):
+    """A controller of p and d at 250 Hz, on an inertia that is far too small for them."""
+    world = MujocoWorld('empty', timestep=2_000_000, log=log)
+    robot = world.spawn('pendulum', PENDULUM)
+    (joint,) = [robot.joints(['swing'])]
+    for _ in range(250):
+        (position,), (speed,) = joint.positions(), joint.velocities()
+        assert math.isfinite(position) and math.isfinite(speed)
+        joint.command('effort', [5.0 * (1.0 - position) - 0.2 * speed])
+        world.advance(4_000_000)
+    errors = [text for severity, text in log.lines if 'frozen' in text]
+    (line,) = errors
+    assert "robot 'pendulum': joint 'swing'" in line
+    assert 'lower the gains (p, i, d) of the controller that commands it' in line
+
+
 def test_a_lost_state_goes_with_its_robot(world, log):
     break_wheel(world, 'qvel', math.nan)
     world.step(10)
     world.remove('amr')
-    data = world.engine.data
-    for array in (data.qvel, data.qpos, data.act, data.qacc_warmstart):
-        array[~np.isfinite(array)] = 0.0  # had the two been apart, these would be sound
     world.step(100)
     world.spawn('amr', AMR, Transform((0.0, -3.0, 0.0)))
     world.step(10)
@@ -105,7 +163,7 @@ def test_a_command_that_is_not_finite_is_named_and_the_state_is_kept(world, log)
     engine.data.ctrl[actuator] = 0.0
     break_wheel(world, 'qvel', math.nan)
     world.step(10)
-    assert 'the state is lost' in log.text
+    assert 'is frozen as it was' in log.text
 
 
 def test_the_model_of_the_present_is_checked_after_a_robot_has_come(world, log):
@@ -181,6 +239,16 @@ def test_a_solver_that_stays_at_its_cap_is_named_with_the_robot_that_keeps_it_th
     drive.run(0.5, 1.0, 1.0)
     assert log.text.count('at its cap') == 2
 
+
+PENDULUM = """<robot name="pendulum"><link name="world"/><link name="arm">
+  <inertial><mass value=".02"/><inertia ixx="7e-5" iyy="7e-5" izz="7e-5" ixy="0" ixz="0" iyz="0"/>
+  </inertial></link>
+  <joint name="swing" type="continuous"><parent link="world"/><child link="arm"/>
+  <axis xyz="0 1 0"/></joint>
+  <ros2_control name="s" type="system"><hardware>
+  <plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+  <joint name="swing"><command_interface name="effort"/><state_interface name="position"/></joint>
+  </ros2_control></robot>"""
 
 BOX = """<robot name="box"><link name="box">
   <collision><geometry><box size=".2 .2 .2"/></geometry></collision>
