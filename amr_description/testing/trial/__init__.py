@@ -14,6 +14,8 @@ three seconds, its controllers brought up, driven and moved, and compared with t
 ``bring_up.py``      its controllers, each as far as it goes
 ``driving.py``       a metre forward, a quarter turn, sideways
 ``moving.py``        joints, by commands and trajectories
-``findings.py``      what is found, as data; the verdict; the row of the table
+``findings.py``      what is found, as data
+``posture.py``       whether it stands, falls, tips over or explodes
+``verdict.py``       what a robot did: as told, off, or not at all, and why; a row of the table
 ==================== ==============================================================================
 """

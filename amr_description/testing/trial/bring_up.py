@@ -16,6 +16,7 @@ import re
 
 from controller_manager_msgs.msg import ControllerState
 from controller_manager_msgs.srv import ListControllers
+from lifecycle_msgs.msg import State
 
 from amr_description.control.ros.client import ManagerClient
 from amr_description.controller_manager.spawner import Spawner
@@ -85,6 +86,10 @@ class BringUp:
 
     def run(self) -> None:
         """Load, configure and activate all that the manager has a type for, and all it runs."""
+        for component in self._manager.components():
+            if component.state.id != State.PRIMARY_STATE_ACTIVE:  # as its parameters may say
+                target = State(id=State.PRIMARY_STATE_ACTIVE, label='active')
+                self._manager.set_component_state(component.name, target)
         before = self._manager.states()
         typed = self._manager.typed_controllers()
         for name in dict.fromkeys([*before, *typed, *self._self_typed]):
@@ -113,7 +118,7 @@ class BringUp:
             if me is None:
                 continue
             wanted = set(me.required_command_interfaces)
-            in_the_way = _in_the_way(wanted, listed)
+            in_the_way = in_the_way_of(wanted, listed)
             reason = finding.reason
             if not in_the_way or not self._activate(finding, in_the_way):
                 continue
@@ -154,12 +159,19 @@ class BringUp:
         return list(self._manager.query(ListControllers).controller)
 
 
-def _in_the_way(wanted: set[str], listed: Sequence[ControllerState]) -> list[str]:
-    """Return the active controllers that hold what is wanted, and those that command these."""
+def in_the_way_of(wanted: set[str], listed: Sequence[ControllerState]) -> list[str]:
+    """
+    Return the active controllers in the place of which interfaces may be had.
+
+    They hold these, or others of the same joints (of position, velocity and effort a joint follows
+    one), or they command those that do.
+    """
+    joints = {each.rpartition('/')[0] for each in wanted}
     names = [
         each.name
         for each in listed
-        if each.state == 'active' and wanted & set(each.required_command_interfaces)
+        if each.state == 'active'
+        and joints & {name.rpartition('/')[0] for name in each.required_command_interfaces}
     ]
     for name in names:  # it grows meanwhile
         names += [

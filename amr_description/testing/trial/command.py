@@ -17,9 +17,10 @@ import threading
 import time
 
 from amr_description.errors import AmrError
-from amr_description.testing.trial.findings import from_json, table, to_json, TrialFindings
+from amr_description.testing.trial.findings import from_json, to_json, TrialFindings
 from amr_description.testing.trial.inputs import descriptions, prefixes, robot_names
 from amr_description.testing.trial.one_robot import Job
+from amr_description.testing.trial.verdict import judge, table, TrialVerdict
 from amr_description.text import one_line
 
 _MODULE = 'amr_description.testing.trial.one_robot'
@@ -93,7 +94,7 @@ _PREFIX_PATH = 'AMENT_PREFIX_PATH'
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Try robots; return 0 if all are fine, 1 if one is not, 2 for what cannot be tried."""
+    """Try robots; return 0 if all move as told, 1 if one does not, 2 for what cannot be tried."""
     options = _parser().parse_args(arguments)
     try:
         replacements = tuple(map(_replacement, options.replace))
@@ -117,7 +118,7 @@ def main(arguments: Sequence[str]) -> int:
     print(text, flush=True)
     if options.json:
         options.json.write_text(to_json(found) + '\n', encoding='utf-8')
-    return 0 if all(each.is_fine for each in found) else 1
+    return 0 if all(judge(each).verdict is TrialVerdict.AS_TOLD for each in found) else 1
 
 
 def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[TrialFindings]:
@@ -126,8 +127,7 @@ def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[TrialFindi
 
     def one(job: Job) -> TrialFindings:
         found = try_robot(job, timeout, running)
-        word = 'fine' if found.is_fine else found.faults[0]
-        print(f'{job.robot}: {word} ({found.seconds:.0f} s)', file=sys.stderr, flush=True)
+        print(f'{job.robot}: {judge(found)} ({found.seconds:.0f} s)', file=sys.stderr, flush=True)
         return found
 
     with ThreadPoolExecutor(count) as pool:
@@ -151,7 +151,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog='try_robots',
         description='Try robots as they are: check, spawn, rest, controllers, motions.',
-        epilog='Exit code: 0 all are fine; 1 one is not; 2 nothing can be tried.',
+        epilog='Exit code: 0 all move as told; 1 one does not; 2 nothing can be tried.',
     )
     add = parser.add_argument
     add('paths', nargs='+', type=Path, metavar='FOLDER|FILE', help='descriptions, or their folder')

@@ -25,9 +25,8 @@ from amr_description.testing.readings import motion_of_odometry
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active
 from amr_description.testing.trial.findings import MotionResult
+from amr_description.testing.trial.verdict import TOLERANCE
 
-TOLERANCE = 0.05
-"""Of the command."""
 _TYPES: dict[str, Any] = {
     'geometry_msgs/msg/TwistStamped': TwistStamped,
     'geometry_msgs/msg/Twist': Twist,
@@ -76,10 +75,15 @@ def travel(start: Motion, end: Motion) -> Displacement:
 class DriveTrial:
     """What is driven: a topic of an active controller, with its type, and its odometry."""
 
-    def __init__(self, sim: Simulation, controller: Active) -> None:
-        """Find the topics. Raises LookupError: the controller subscribes to no Twist."""
+    def __init__(self, sim: Simulation, controller: Active, wheelbase: float = 0.0) -> None:
+        """
+        Find the topics. Raises LookupError: the controller subscribes to no Twist.
+
+        ``wheelbase``: m, of a car that takes angular.z as the angle of its tyres; 0: as a turn.
+        """
         self._sim = sim
         self._controller = controller
+        self._wheelbase = wheelbase
         node = sim.node
         name, inside = controller.name, controller.namespace
         subscribed = node.get_subscriber_names_and_types_by_node
@@ -207,7 +211,10 @@ class DriveTrial:
     def _message(self, command: Command) -> Any:
         message = self._type()
         twist = message.twist if self._type is TwistStamped else message
-        twist.linear.x, twist.linear.y, twist.angular.z = command
+        speed, sideways, turn = command
+        if self._wheelbase and speed:
+            turn = math.atan(self._wheelbase * turn / speed)
+        twist.linear.x, twist.linear.y, twist.angular.z = speed, sideways, turn
         return message
 
 

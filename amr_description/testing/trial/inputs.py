@@ -24,6 +24,8 @@ import yaml
 
 from amr_description.ament_index import packages, parameter_path
 from amr_description.errors import AmrError, UsageError
+from amr_description.model.gazebo_plugins import plugins_of
+from amr_description.model.xml_reader import parse_xml
 from amr_description.parameter_files import KEY, read_parameter_file, sections
 
 SUFFIXES = ('.urdf', '.xacro')
@@ -38,6 +40,12 @@ _PACKAGES = (
 )
 _JOINT = re.compile(r'<joint\s+name="([^"]+)"\s*>(.*?)</joint>', re.DOTALL)
 _BLOCK = re.compile(r'<ros2_control\b.*?</ros2_control>', re.DOTALL)
+_DRIVES = re.compile(
+    r'drive|steering|ackerman|planar.?move|force.?based.?move|velocity.?control|joint.?trajectory'
+    r'|joint.?position.?controller|joint.?controller',
+    re.IGNORECASE,
+)
+"""Of kind, library or name of a plugin that moves a robot."""
 _POSITION = re.compile(r'<command_interface\s+name="position"')
 
 
@@ -195,6 +203,38 @@ def self_typed(files: Iterable[Path]) -> dict[str, Path]:
         for section in sections(read_parameter_file(file))
         if isinstance(section.parameters, dict) and '/' in str(section.parameters.get('type', ''))
     }
+
+
+@dataclass(frozen=True)
+class DeclaredDrives:
+    """What a description says that moves the robot."""
+
+    plugins: tuple[str, ...]
+    """Plugins of Gazebo that drive, by their names or libraries, simulated or not."""
+    is_controlled: bool
+    """Whether it has ``<ros2_control>``."""
+    has_commands: bool
+    """Whether that commands something."""
+
+    @property
+    def is_any(self) -> bool:
+        """Whether it says anything."""
+        return bool(self.plugins) or self.has_commands
+
+
+def declared_drives(text: str) -> DeclaredDrives:
+    """Return what a URDF says that moves the robot; what is in comments does not count."""
+    xml = parse_xml(text, DESCRIPTION, lambda fault: None)
+    if xml is None:
+        return DeclaredDrives((), is_controlled=False, has_commands=False)
+    drives = [
+        each.name or each.library
+        for each in plugins_of(xml, [])
+        if _DRIVES.search(f'{each.kind} {each.library} {each.name}') and not each.is_world_matter
+    ]
+    blocks = xml.findall('ros2_control')
+    has_commands = any(each.find('.//command_interface') is not None for each in blocks)
+    return DeclaredDrives(tuple(dict.fromkeys(drives)), bool(blocks), has_commands)
 
 
 def position_joints(text: str) -> list[str]:

@@ -36,6 +36,8 @@ _SHARE = 0.2
 """Of the range of a joint."""
 _SECONDS, _SETTLING = 2.0, 1.5
 """s: a trajectory's duration, and the time after it."""
+_START, _LONGEST_START, _STEADY = 0.5, 15.0, 0.02
+"""s between two looks at speeds, s until they are judged, and what is steady, of the command."""
 _TOLERANCE = 0.1
 """Of what is asked of a joint."""
 _BROADCASTER = 'JointStateBroadcaster'
@@ -212,11 +214,31 @@ class Mover:
                 speeds[name] = min(_ANGLE, 0.5 * limit.velocity)
         topic = self._topic('commands')
         self._sim.send(topic, Float64MultiArray(data=list(speeds.values())))
-        self._sim.run(1.0)
-        states = self._states.read()
+        reached = self._steady(speeds)
         self._sim.send(topic, Float64MultiArray(data=[0.0] * len(speeds)))
         self._sim.run(0.5)
-        return self._worst('velocity', {n: (v, states[n].velocity) for n, v in speeds.items()})
+        return self._worst('velocity', {n: (v, reached[n]) for n, v in speeds.items()})
+
+    def _steady(self, speeds: Mapping[str, float]) -> dict[str, float]:
+        """Return the speeds once they are as asked, or change no more: heavy ones take time."""
+        end = self._sim.time + _LONGEST_START
+        before, last = self._states.read(), dict.fromkeys(speeds, math.inf)
+        begin = self._sim.time
+        while True:
+            self._sim.run(_START)
+            now, time = self._states.read(), self._sim.time
+            reached = {
+                name: (now[name].position - before[name].position) / (time - begin)
+                for name in speeds
+            }
+            is_there = all(
+                abs(reached[n] - v) <= _STEADY * abs(v)
+                or abs(reached[n] - last[n]) <= _STEADY * abs(v)
+                for n, v in speeds.items()
+            )
+            if is_there or time >= end:
+                return reached
+            before, last, begin = now, reached, time
 
     def _worst(self, what: str, reached: Mapping[str, tuple[float, float]]) -> MotionResult:
         """Return the motion of the joint with the greatest error: name → (asked, found)."""

@@ -12,10 +12,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 import json
-import math
 import os
 from pathlib import Path
-import re
 import subprocess
 import sys
 import tempfile
@@ -24,49 +22,31 @@ import warnings
 
 from amr_description.errors import AmrError
 from amr_description.model.description_file import description_at
-from amr_description.model.frames import rotate
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active, BringUp, find_manager, logged
-from amr_description.testing.trial.driving import DriveTrial, TOLERANCE
+from amr_description.testing.trial.driving import DriveTrial
 from amr_description.testing.trial.findings import (
     Check,
     from_json,
     MotionResult,
-    RestResult,
     to_json,
     TrialFindings,
 )
 from amr_description.testing.trial.inputs import (
+    declared_drives,
+    DeclaredDrives,
     parameters_of,
     replaced_copy,
     self_typed,
     TrialParameters,
 )
 from amr_description.testing.trial.moving import is_moved, JointStates, Mover
-from amr_description.text import one_line
-
-REST = 3.0
-"""s without a command."""
-REST_WITHIN = 2.0
-"""s in which a robot is to stand."""
-_STILL_LINEAR, _STILL_ANGULAR = 0.01, 0.05
-"""m/s and rad/s; a slower robot stands."""
-_EXPLOSION = 5.0
-"""m/s: a fall from more than a metre, which nothing spawned on the ground has before it."""
-_SAMPLE = 0.1
-"""s between two looks at a robot at rest."""
-_DRIVE_PLUGIN = re.compile(
-    r'<plugin\b[^>]*\b(?:filename|name)="([^"]*(?:drive|Drive|steering|Steering|planar_move)[^"]*)"'
-)
-"""A plugin of Gazebo that drives."""
-_TOUCHES_NOTHING = 'no shape of it touches anything'
-_OF_TURNS = re.compile(r'swapped|inverted|steer to the left|in the order|turn the robot|scrub')
-_OF_SLIP = re.compile(r'they slip|scrub')
-_TIPPED = math.pi / 6.0
-"""rad; a robot at a greater tilt does not come back."""
-_STRAIGHT_UP = (0.0, 0.0, 1.0)
+from amr_description.testing.trial.posture import Posture
+from amr_description.testing.trial.verdict import cause_of, describe, explanations
+from amr_description.text import one_line, quote_all
 
 
 @dataclass(frozen=True)
@@ -154,6 +134,8 @@ class Trial:
     # --- the simulation ------------------------------------------------------------------------
 
     def _simulate(self, file: Path, given: TrialParameters, text: str) -> None:
+        declared = declared_drives(text)
+        self.found.has_drive = declared.is_any
         self._enter('spawn')
         begin = time.monotonic()
         sim = Simulation(file.absolute(), given.told, activate=[])
@@ -161,15 +143,15 @@ class Trial:
             with sim:
                 self.found.spawn_seconds = time.monotonic() - begin
                 self._enter('rest')
-                self._rest(sim)
+                posture = self._rest(sim)
                 self._enter('controllers')
-                manager = find_manager(sim, is_promised='<ros2_control' in text)
+                manager = find_manager(sim, is_promised=declared.is_controlled)
                 if manager is None:
                     self.found.undriven.append('there is no controller manager')
                 else:
                     bring_up = BringUp(sim, manager, self_typed(given.files))
-                    self._controllers(sim, parse(text), bring_up)
-                self._miss_motions(text)
+                    self._controllers(sim, parse(text), bring_up, posture)
+                self._miss_motions(declared)
                 self._enter('end')
         finally:
             self._read_log(sim)
@@ -180,48 +162,24 @@ class Trial:
         except AttributeError:  # it was never started
             return
 
-    def _rest(self, sim: Simulation) -> None:
-        begin = sim.truth
-        fastest, last_moving = 0.0, 0.0
-        while sim.time < REST - 1e-6:
-            sim.run(_SAMPLE)
-            now = sim.truth
-            speed, turn = math.hypot(*now.linear), math.hypot(*now.angular)
-            if not math.isfinite(speed + turn + now.x + now.y + now.z):
-                self._fault('rest: it explodes: its pose is not finite')
-                self.found.rest = RestResult(math.inf, math.inf, math.nan, math.nan, math.nan)
-                return
-            fastest = max(fastest, speed)
-            if speed > _STILL_LINEAR or turn > _STILL_ANGULAR:
-                last_moving = sim.time
-        up = rotate(now.pose.rotation, _STRAIGHT_UP)
-        before = rotate(begin.pose.rotation, _STRAIGHT_UP)
-        cosine = sum(a * b for a, b in zip(up, before, strict=True))
-        rest = RestResult(
-            seconds=last_moving if last_moving < REST - 1e-6 else math.inf,
-            fastest=fastest,
-            drop=begin.z - now.z,
-            shift=math.hypot(now.x - begin.x, now.y - begin.y),
-            tilt=math.acos(max(-1.0, min(1.0, cosine))),
-        )
-        self.found.rest = rest
-        falls = [line for line in logged(sim.log) if _TOUCHES_NOTHING in line]
-        if falls:
-            self.found.explained.append(f'rest: it falls at {fastest:.1f} m/s: {falls[0]}')
-        elif fastest > _EXPLOSION:
-            self._fault(f'rest: it explodes: {fastest:.1f} m/s')
-        elif rest.seconds > REST_WITHIN:
-            speeds = math.hypot(*now.linear), math.hypot(*now.angular)
-            self._fault(f'rest: {unrest(rest, *speeds)}')
+    def _rest(self, sim: Simulation) -> Posture:
+        posture = Posture(sim)
+        self.found.rest, faults = posture.rest()
+        self.found.posture += [f'at rest {each}' for each in faults]
+        return posture
 
-    def _controllers(self, sim: Simulation, robot: Robot, bring_up: BringUp) -> None:
+    def _controllers(
+        self, sim: Simulation, robot: Robot, bring_up: BringUp, posture: Posture
+    ) -> None:
         self.found.controllers = bring_up.findings
         bring_up.run()
         self._enter('motion')
         for active in _in_turn(bring_up):
             if not active[-1].claimed:
                 self._publishers.add(active[-1].name)
+            count = len(self.found.motions)
             self._move(sim, robot, active)
+            self._look(posture, self.found.motions[count:])
             self._keep(self.found)
         for each in bring_up.findings:
             if each.state != 'active':
@@ -230,11 +188,16 @@ class Trial:
             if motion.is_fine:
                 continue
             motion.said = '; '.join(explanations(motion, logged(sim.log)))
-            text = f'{describe(motion)}; {cause_of(motion)}'
             if motion.said:
-                self.found.explained.append(f'{text}: {motion.said}')
+                self.found.explained.append(f'{describe(motion)}: {motion.said}')
             else:
-                self._fault(text)
+                self._fault(f'{describe(motion)}; {cause_of(motion)}')
+
+    def _look(self, posture: Posture, motions: Sequence[MotionResult]) -> None:
+        """Say how the robot is there after motions, unless that was said before."""
+        if motions and not self.found.posture:
+            after = f'after {motions[-1].controller}: {motions[-1].what}'
+            self.found.posture += [f'{after} {each}' for each in posture.faults()]
 
     def _move(self, sim: Simulation, robot: Robot, active: list[Active]) -> None:
         """Move what can be moved of the active controllers, the last of them."""
@@ -250,25 +213,24 @@ class Trial:
                 self.found.undriven.append(f'{controller.name}: {error}')
         elif controller.claimed:  # others only publish
             try:
-                with closing(DriveTrial(sim, controller)) as drive:
+                wheelbase = wheelbase_of(robot, controller.name)
+                with closing(DriveTrial(sim, controller, wheelbase)) as drive:
                     self.found.motions += drive.try_all()
             except LookupError as error:
                 self.found.undriven.append(f'{error}')
 
-    def _miss_motions(self, text: str) -> None:
-        """A robot that says how it is moved, and was not moved at all, is not fine."""
-        if self.found.motions:
-            return
-        drive = _DRIVE_PLUGIN.search(text)
-        listed = [
-            each
-            for each in self.found.controllers
-            if each.name not in self._publishers and 'roadcaster' not in each.type
-        ]
-        if drive or listed:
-            what = f'its {drive[1]}' if drive else 'its <ros2_control>'
-            why = '; '.join(self.found.undriven) or 'no active controller is one that moves'
-            self._fault(f'nothing has moved by {what}: {why}')
+    def _miss_motions(self, declared: DeclaredDrives) -> None:
+        """What says how it is moved, and was not moved at all, is not as it should be."""
+        why = '; '.join(self.found.undriven) or 'no active controller is one that moves'
+        has_driven = any(each.what in ('forward', 'turn') for each in self.found.motions)
+        if declared.plugins and not has_driven:
+            self._fault(f'nothing has driven by its {quote_all(declared.plugins)}: {why}')
+        elif not self.found.motions and declared.has_commands:
+            listed = [each for each in self.found.controllers if each.name not in self._publishers]
+            named = 'its controllers' if listed else 'its <ros2_control>, without controllers'
+            self._fault(f'nothing has moved by {named}: {why}')
+        elif not declared.is_any:
+            self.found.undriven.insert(0, 'its description has nothing that drives it')
 
     # --- keeping -------------------------------------------------------------------------------
 
@@ -283,19 +245,6 @@ class Trial:
         self.found.warnings.append(f'WARN: {one_line(line)}')
 
 
-def unrest(rest: RestResult, linear: float, angular: float) -> str:
-    """Return how a robot does not rest; its speeds at the end are in m/s and rad/s."""
-    what = (
-        f'it still moves after {REST_WITHIN:g} s: {linear:.3f} m/s, {angular:.3f} rad/s at the end'
-    )
-    if rest.tilt < _TIPPED:
-        return what
-    return (
-        f'{what}; it has tipped over, by {math.degrees(rest.tilt):.0f}°, as what is made to be '
-        'bolted down does (fixed:=true)'
-    )
-
-
 def _in_turn(bring_up: BringUp) -> Iterator[list[Active]]:
     """Yield the active controllers, each time with another one as the last: all get a turn."""
     active = bring_up.active()
@@ -305,45 +254,12 @@ def _in_turn(bring_up: BringUp) -> Iterator[list[Active]]:
         yield [*(other for other in bring_up.active() if other.name != each.name), each]
 
 
-def describe(motion: MotionResult) -> str:
-    """Return a motion that is not as it should be, in one line."""
-
-    def number(value: float | None) -> str:
-        return '?' if value is None else f'{value:.3f}'
-
-    odometry = '' if motion.odometry is None else f', odometry {number(motion.odometry)}'
-    line = f'{motion.controller}: {motion.what} {motion.asked:.3f}: truth {number(motion.truth)}'
-    return f'{line}{odometry}' + (f' ({motion.note})' if motion.note else '')
-
-
-def cause_of(motion: MotionResult) -> str:
-    """Return what truth and odometry of a motion that is not as it should be have in common."""
-    asked, truth, odometry = motion.asked, motion.truth, motion.odometry
-    if truth is None or not asked:
-        return 'not measured'
-    if abs(truth + asked) <= TOLERANCE * asked:
-        return 'the other way: wheels are swapped, or an axis is upside down'
-    if odometry is None:
-        return 'no odometry to compare with'
-    if abs(odometry - asked) > TOLERANCE * asked:
-        return 'by its odometry, too: a limit, or a wrong radius or separation'
-    return 'not by its odometry: wheels slip, or roll otherwise than the parameters say'
-
-
-def explanations(motion: MotionResult, logged_lines: Sequence[str]) -> list[str]:
-    """
-    Return what was said of the controller of a motion, or of slip, that explains why it is off.
-
-    What turns a robot the other way does not keep it from going straight on.
-    """
-    named = re.compile(rf'(?<![\w/]){re.escape(motion.controller)}: ')
-    return [
-        line
-        for line in logged_lines
-        if line.startswith('WARN')
-        and (named.search(line) or _OF_SLIP.search(line))
-        and (motion.what == 'turn' or not _OF_TURNS.search(line))
-    ]
+def wheelbase_of(robot: Robot, controller: str) -> float:
+    """Return that of a car of Classic, m, whose twist has the angle of its tyres; 0: of others."""
+    for each in translate(robot).controllers:
+        if each.name == controller and each.parameters.get('angular_is_steering'):
+            return float(each.parameters['wheelbase'])
+    return 0.0
 
 
 def without_path(found: TrialFindings, path: str) -> TrialFindings:

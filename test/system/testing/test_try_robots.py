@@ -29,4 +29,4 @@ def test_a_robot_that_is_fine_and_one_that_is_refused(tmp_path):
     assert good['rest']['seconds'] < 1.0
     assert bad['spawn_seconds'] is None
     assert bad['faults'][0].startswith('spawn: ')
-    assert '1 of 2 fine' in program.output
+    assert '2 tried: 1 moved as told; 0 moved, off; 1 did not move' in program.output

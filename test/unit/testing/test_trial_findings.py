@@ -6,12 +6,13 @@ from dataclasses import replace
 import json
 import math
 
+from controller_manager_msgs.msg import ControllerState
 import pytest
 
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.model.robot import Joint, JointType, Limit
 from amr_description.simulation.readings import Motion
-from amr_description.testing.trial.bring_up import logged
+from amr_description.testing.trial.bring_up import in_the_way_of, logged
 from amr_description.testing.trial.driving import travel
 from amr_description.testing.trial.findings import (
     Check,
@@ -19,13 +20,21 @@ from amr_description.testing.trial.findings import (
     from_json,
     MotionResult,
     RestResult,
-    row,
-    table,
     to_json,
     TrialFindings,
 )
+from amr_description.testing.trial.inputs import declared_drives
 from amr_description.testing.trial.moving import offset_of
-from amr_description.testing.trial.one_robot import cause_of, check_of, explanations, unrest
+from amr_description.testing.trial.one_robot import check_of
+from amr_description.testing.trial.posture import has_tipped, tilt_between, tipped, unrest
+from amr_description.testing.trial.verdict import (
+    cause_of,
+    explanations,
+    judge,
+    row,
+    table,
+    TrialVerdict,
+)
 
 FOUND = TrialFindings(
     'cart',
@@ -55,14 +64,54 @@ def test_a_row_tells_every_stage():
     assert row(TrialFindings('a', 'a'))[1:6] == ('0E 0W', 'refused', '-', '0/0', '-')
 
 
-def test_the_table_has_faults_and_the_first_warnings():
-    lines = table([FOUND, TrialFindings('arm', 'arm')]).splitlines()
-    assert lines[1].endswith('FAIL')
-    assert lines[2:7] == ['    fault: a: turn', *['    WARN: x'] * 3, '    … and 2 lines more']
-    assert lines[7].split()[:3] == ['arm', '0E', '0W']
-    assert lines[7].endswith('ok')
-    assert lines[-1] == '1 of 2 fine'
+def test_the_table_has_verdicts_faults_and_the_first_warnings():
+    arm = TrialFindings('arm', 'arm', has_drive=False, undriven=['nothing drives it'])
+    lines = table([FOUND, arm]).splitlines()
+    assert lines[1].endswith('  moved, off')
+    assert lines[2:4] == [
+        '    moved, off (a: turn 50 %: no odometry to compare with)',
+        '    fault: a: turn',
+    ]
+    assert lines[4:8] == [*['    WARN: x'] * 3, '    … and 2 lines more']
+    assert lines[8].split()[:3] == ['arm', '0E', '0W']
+    assert lines[8].endswith('did not move')
+    assert lines[-1] == (
+        '2 tried: 0 moved as told; 1 moved, off; 1 did not move, 1 of them without anything in '
+        'their description that drives'
+    )
     assert len(table([FOUND], details=False).splitlines()) == 3
+
+
+def motion(share, what='forward', odometry=1.0, **more):
+    is_fine = abs(share - 1.0) < 0.05
+    return MotionResult('drive', what, 1.0, share, odometry, is_fine=is_fine, **more)
+
+
+def verdict(*motions, **more):
+    return judge(TrialFindings('x', 'x', motions=[*motions], **more))
+
+
+def test_a_verdict_is_of_what_a_robot_did():
+    assert verdict(motion(0.99), motion(1.0, 'turn')).verdict is TrialVerdict.AS_TOLD
+    off = verdict(motion(0.99), motion(0.6, 'turn', said='WARN: /a/x.yaml:3: wheels scrub'))
+    assert str(off) == 'moved, off (drive: turn 60 %: x.yaml:3: wheels scrub)'
+    assert verdict(motion(-1.0, 'turn')).verdict is TrialVerdict.OFF
+    assert verdict(motion(0.02)).verdict is TrialVerdict.NOT
+    assert verdict(motion(math.nan)).verdict is TrialVerdict.NOT
+    refused = verdict(faults=['spawn: MuJoCo refuses the model'])
+    assert str(refused) == 'did not move (spawn: MuJoCo refuses the model)'
+    arm = verdict(motion(1.0), faults=['hand (x/Y) is not loaded: no such type'])
+    assert str(arm) == 'moved, off (hand (x/Y) is not loaded: no such type)'
+
+
+def test_what_falls_tips_or_is_lost_has_not_moved_as_told():
+    for posture in (tipped(1.0), 'it falls, by 44.0 m', 'its state is lost: x'):
+        assert verdict(motion(1.0), posture=[f'at rest {posture}']).verdict is TrialVerdict.OFF
+        assert str(verdict(posture=[posture])) == f'did not move ({posture})'
+    assert 'by 57°' in tipped(1.0)
+    assert 'fixed:=true' in tipped(1.0)
+    assert not has_tipped(math.radians(4.0))
+    assert has_tipped(tilt_between(at(0.0, 0.0, 0.0), lying()))
 
 
 def test_json_holds_everything_and_is_read_again():
@@ -117,26 +166,47 @@ def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
     assert cause_of(motion).startswith(expected)
 
 
-def test_only_what_was_said_of_the_controller_explains_its_motion():
-    lines = [
-        'WARN: c.yaml:9: drive: left and right wheels are swapped: turns are inverted',
-        'WARN: c.yaml:9: drive: the wheel cannot roll: it slides',
-        'WARN: c.yaml:9: overdrive: the wheel cannot roll: it slides',
-        'ERROR: drive: no',
-        'WARN: thin',
-        'WARN: cart.urdf: "caster" slides and holds the robot: its wheels pull less: they slip',
-    ]
-    turn = MotionResult('drive', 'turn', 1.0, -1.0, 1.0, is_fine=False)
-    assert explanations(turn, lines) == [*lines[:2], lines[-1]]
-    ahead = replace(turn, what='forward')
-    assert explanations(ahead, lines) == [lines[1], lines[-1]]
-    marked = replace(FOUND, motions=[replace(turn, said='x')], explained=['drive: x'])
+SWAPPED = 'WARN: c.yaml:9: drive: left and right wheels are swapped: turns are inverted'
+SLIDES = 'WARN: c.yaml:9: drive: the wheel cannot roll: it slides'
+OTHERS = 'WARN: c.yaml:9: overdrive: the wheel cannot roll: it slides'
+CASTER = 'WARN: cart.urdf: "caster" slides and holds the robot: its wheels pull less: they slip'
+SCRUB = 'WARN: c.yaml:9: drive: wheels one behind the other scrub in a turn'
+RADIUS = 'WARN: c.yaml:9: drive: wheel_radius is not that of "w": found 0.05 m, expected 0.1 m'
+CLAMPED = "WARN: robot 'x': joint 'w': the velocity command 9 is beyond 3.5 and is clamped"
+
+
+@pytest.mark.parametrize(
+    ('what', 'share', 'explained_by'),
+    [
+        ('turn', -1.0, [SWAPPED]),
+        ('turn', 0.6, [SLIDES, CASTER, SCRUB, CLAMPED]),
+        ('forward', 0.6, [SLIDES, CASTER, CLAMPED]),
+        ('forward', 2.0, [RADIUS]),
+        ('turn', 1.4, [RADIUS]),
+        ('forward', -1.0, []),
+        ('forward', 1.0, []),
+    ],
+)
+def test_only_what_explains_a_deviation_counts(what, share, explained_by):
+    lines = [SWAPPED, SLIDES, OTHERS, 'INFO: drive: scrub', 'WARN: thin', CASTER, SCRUB]
+    lines += [RADIUS, CLAMPED]
+    assert explanations(motion(share, what), lines) == explained_by
+
+
+def test_what_is_explained_has_its_mark():
+    turn = MotionResult('drive', 'turn', 1.0, -1.0, 1.0, is_fine=False, said='x')
+    marked = replace(FOUND, motions=[turn], explained=['drive: x'])
     assert row(marked)[5] == '~turn -100%'
     assert '    explained: drive: x' in table([marked]).splitlines()
 
 
 def at(x, y, yaw):
     pose = Transform((x, y, 0.0), quaternion_from_yaw(yaw))
+    return Motion(0.0, pose, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+def lying():
+    pose = Transform((0.0, 0.0, 0.0), (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)))
     return Motion(0.0, pose, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
@@ -163,12 +233,33 @@ def test_a_joint_is_asked_to_the_side_with_more_room(kind, limit, position, expe
     assert offset_of(joint, position) == pytest.approx(expected)
 
 
-def test_a_robot_that_tips_over_is_told_from_one_that_trembles():
-    trembles = RestResult(math.inf, fastest=0.1, drop=0.0, shift=0.0, tilt=0.1)
-    assert unrest(trembles, 0.02, 0.5) == (
-        'it still moves after 2 s: 0.020 m/s, 0.500 rad/s at the end'
-    )
-    tips = replace(trembles, tilt=math.pi / 2.0)
-    assert unrest(tips, 0.02, 0.5).endswith(
-        'it has tipped over, by 90°, as what is made to be bolted down does (fixed:=true)'
-    )
+def test_what_a_robot_that_trembles_does_is_told():
+    assert unrest(0.02, 0.5) == 'it still moves after 2 s: 0.020 m/s, 0.500 rad/s at the end'
+
+
+def test_what_a_description_says_that_drives_counts_even_if_nobody_simulates_it():
+    def drives(inside):
+        return declared_drives(f'<robot name="x"><link name="a"/>{inside}</robot>')
+
+    base = '<plugin name="base" filename="libgazebo_ros_force_based_move.so"/>'
+    assert drives(f'<gazebo>{base}</gazebo>').plugins == ('base',)
+    assert not drives(f'<!-- <gazebo>{base}</gazebo> -->').is_any
+    block = '<ros2_control name="s" type="system"><joint name="j">{}</joint></ros2_control>'
+    state = drives(block.format('<state_interface name="position"/>'))
+    assert (state.is_controlled, state.is_any) == (True, False)
+    assert drives(block.format('<command_interface name="position"/>')).has_commands
+    bridge = '<plugin name="c" filename="libgazebo_ros2_control.so"/>'
+    assert not drives(f'<gazebo>{bridge}</gazebo>').plugins
+
+
+def test_a_mode_of_the_same_joints_gives_way_and_who_commands_it():
+    def listed(name, *interfaces, state='active'):
+        return ControllerState(name=name, state=state, required_command_interfaces=[*interfaces])
+
+    every = [
+        listed('by_speed', 'elbow/velocity'),
+        listed('above', 'by_speed/elbow/velocity'),
+        listed('hand', 'finger/position'),
+        listed('idle', 'elbow/effort', state='inactive'),
+    ]
+    assert in_the_way_of({'elbow/position'}, every) == ['by_speed', 'above']

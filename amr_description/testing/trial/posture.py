@@ -1,0 +1,116 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a robot is there, at rest and after each motion: upright, on something, and finite."""
+
+import math
+
+from amr_description.model.frames import rotate
+from amr_description.simulation.readings import Motion
+from amr_description.testing.simulation import Simulation
+from amr_description.testing.trial.bring_up import logged
+from amr_description.testing.trial.findings import RestResult
+
+REST = 3.0
+"""s without a command."""
+REST_WITHIN = 2.0
+"""s in which a robot is to stand."""
+BOLTED_DOWN = (
+    'as what is made to be bolted down does: none of its links is called world, fixed:=true'
+)
+_STILL_LINEAR, _STILL_ANGULAR = 0.01, 0.05
+"""m/s and rad/s; a slower robot stands."""
+_EXPLOSION = 5.0
+"""m/s: a fall from more than a metre, which nothing spawned on the ground has before it."""
+_FALLEN = 0.5
+"""m, below where it was spawned."""
+_TIPPED = math.radians(15.0)
+"""rad; more than springs give a robot that stands, or that brakes."""
+_SAMPLE = 0.1
+"""s between two looks at a robot at rest."""
+_STRAIGHT_UP = (0.0, 0.0, 1.0)
+_FROZEN = 'is frozen as it was'
+_TOUCHES_NOTHING = 'no shape of it touches anything'
+
+
+def tilt_between(before: Motion, now: Motion) -> float:
+    """Return the angle between the z axes of a robot at two instants, rad."""
+    one, other = (rotate(each.pose.rotation, _STRAIGHT_UP) for each in (before, now))
+    cosine = sum(a * b for a, b in zip(one, other, strict=True))
+    return math.acos(max(-1.0, min(1.0, cosine)))
+
+
+class Posture:
+    """Looks at one robot, against how it was spawned."""
+
+    def __init__(self, sim: Simulation) -> None:
+        """Take how it is now."""
+        self._sim = sim
+        self._begin = sim.truth
+
+    def rest(self) -> tuple[RestResult, list[str]]:
+        """Let :data:`REST` pass; return how it has stood, and what is wrong with that."""
+        sim, begin = self._sim, self._begin
+        fastest, last_moving = 0.0, 0.0
+        now = begin
+        while sim.time < REST - 1e-6:
+            sim.run(_SAMPLE)
+            now = sim.truth
+            speed, turn = math.hypot(*now.linear), math.hypot(*now.angular)
+            if self.lost():
+                break
+            fastest = max(fastest, speed)
+            if speed > _STILL_LINEAR or turn > _STILL_ANGULAR:
+                last_moving = sim.time
+        rest = RestResult(
+            seconds=last_moving if last_moving < REST - 1e-6 else math.inf,
+            fastest=fastest,
+            drop=begin.z - now.z,
+            shift=math.hypot(now.x - begin.x, now.y - begin.y),
+            tilt=tilt_between(begin, now),
+        )
+        if faults := self.faults():
+            return rest, faults
+        if fastest > _EXPLOSION:
+            return rest, [f'it explodes: {fastest:.1f} m/s']
+        if rest.seconds > REST_WITHIN:
+            return rest, [unrest(math.hypot(*now.linear), math.hypot(*now.angular))]
+        return rest, []
+
+    def lost(self) -> str:
+        """Return what the simulator says of a state that it has lost; '': it has not."""
+        now = self._sim.truth
+        lines = [line for line in logged(self._sim.log) if _FROZEN in line]
+        if lines:
+            return lines[0]
+        values = (now.x, now.y, now.z, *now.linear, *now.angular)
+        return '' if all(map(math.isfinite, values)) else 'its pose is not finite'
+
+    def faults(self) -> list[str]:
+        """Return what is wrong with how it is now."""
+        if lost := self.lost():
+            return [f'its state is lost: {lost}']
+        now = self._sim.truth
+        fallen = self._begin.z - now.z
+        if fallen > _FALLEN:
+            lines = [each for each in logged(self._sim.log) if _TOUCHES_NOTHING in each]
+            why = f': {lines[0]}' if lines else ''
+            return [f'it falls, by {fallen:.1f} m{why}']
+        tilt = tilt_between(self._begin, now)
+        return [tipped(tilt)] if has_tipped(tilt) else []
+
+
+def has_tipped(tilt: float) -> bool:
+    """Return whether a tilt, rad, is one of a robot that has tipped over."""
+    return tilt > _TIPPED
+
+
+def tipped(tilt: float) -> str:
+    """Return that a robot has tipped over, by an angle, rad."""
+    return f'it has tipped over, by {math.degrees(tilt):.0f}°, {BOLTED_DOWN}'
+
+
+def unrest(linear: float, angular: float) -> str:
+    """Return how a robot does not rest; its speeds at the end are in m/s and rad/s."""
+    return (
+        f'it still moves after {REST_WITHIN:g} s: {linear:.3f} m/s, {angular:.3f} rad/s at the end'
+    )
