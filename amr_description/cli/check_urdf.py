@@ -251,11 +251,24 @@ def _drives(
     paths: list[str], text: str, source: str
 ) -> tuple[tuple[DriveSettings, ...], tuple[Finding, ...]]:
     """
-    Return the differential drives of parameter files, and what is wrong in these and other drives.
+    Return the differential drives of parameter files and plugins, and what is wrong with others.
 
-    Without ``paths``, those that the URDF names. Raises ParameterError: one of ``paths`` cannot be
-    read, or they list no controller.
+    Without ``paths``, the files are those that the URDF names. Raises ParameterError: one of
+    ``paths`` cannot be read, or they list no controller.
     """
+    files = _drives_of_files(paths, text, source)
+    if '<plugin' not in text:
+        return files
+    from amr_description.controllers.drive_files import plugins_in
+
+    plugins = plugins_in(text, source)
+    return (*files[0], *plugins.drives), (*files[1], *plugins.faults)
+
+
+def _drives_of_files(
+    paths: list[str], text: str, source: str
+) -> tuple[tuple[DriveSettings, ...], tuple[Finding, ...]]:
+    """Return those of parameter files, as :func:`_drives` does."""
     if not paths and '<parameters>' not in text:
         return (), ()
     from amr_description.controllers.drive_files import (

@@ -25,15 +25,20 @@ from amr_description.controllers.parameter_sections import (
     LocatedSection,
     read_sections,
 )
-from amr_description.controllers.wheeled_drive_files import wheeled_drive_findings
+from amr_description.controllers.wheeled_drive_files import (
+    plugin_findings,
+    wheeled_drive_findings,
+)
 from amr_description.errors import AmrError, ParameterError
 from amr_description.model.checks import examine_drives
 from amr_description.model.checks.context import DriveSettings
-from amr_description.model.findings import Finding, Severity
+from amr_description.model.findings import Finding, Severity, SourceLocation
 from amr_description.model.gazebo import GazeboPlugin, read_gazebo_plugins
+from amr_description.model.gazebo_builder import PluginController
+from amr_description.model.gazebo_translation import translate
 from amr_description.model.origins import relocated
 from amr_description.model.robot import Robot
-from amr_description.model.urdf import read_robot
+from amr_description.model.urdf import parse, read_robot
 from amr_description.model.xml_reader import parse_xml
 from amr_description.parameter_files import KEY
 from amr_description.parameters import build
@@ -136,6 +141,58 @@ def drive_warnings(robot: Robot, paths: Sequence[str]) -> tuple[Finding, ...]:
     )
 
 
+def plugin_warnings(robot: Robot, plugins: Sequence[PluginController]) -> tuple[Finding, ...]:
+    """
+    Return what is wrong with the wheeled drives that stand for plugins of Gazebo.
+
+    Args:
+        robot: the robot, sound.
+        plugins: the controllers that stand for its plugins.
+    """
+    found = examine_drives(robot, _plugin_drives(robot.source, plugins))
+    return tuple(
+        relocated(each, robot.text) for each in (*found, *plugin_findings(robot, plugins))
+    )
+
+
+def _plugin_drives(source: str, plugins: Sequence[PluginController]) -> tuple[DriveSettings, ...]:
+    """Return the settings of the differential drives that stand for plugins of Gazebo."""
+    return tuple(
+        DriveSettings(
+            name=each.name,
+            location=SourceLocation(source, each.line),
+            left_wheels=tuple(each.parameters['left_wheel_names']),
+            right_wheels=tuple(each.parameters['right_wheel_names']),
+            separation=each.parameters['wheel_separation'],
+            radius=each.parameters['wheel_radius'],
+            separation_multiplier=1.0,
+            base_frame='',
+            odom_frame='',
+            publishes_transform=False,
+            position_feedback=True,
+            open_loop=False,
+            tags=each.tags,
+            locations={name: SourceLocation(source, tag.line) for name, tag in each.tags.items()},
+        )
+        for each in plugins
+        if 'left_wheel_names' in each.parameters and each.tags
+    )
+
+
+def plugins_in(text: str, source: str) -> DriveExamination:
+    """
+    Return the differential drives of a URDF's plugins, and what is wrong with its other ones.
+
+    The faults of the URDF are left to the checker: with any there are none of these.
+    """
+    try:
+        robot = parse(text, source)
+        plugins = translate(robot).controllers
+    except AmrError:
+        return DriveExamination((), ())
+    return DriveExamination(_plugin_drives(source, plugins), plugin_findings(robot, plugins))
+
+
 def drives_of(robot: Robot, paths: Sequence[str]) -> tuple[DriveSettings, ...]:
     """
     Return the drives of parameter files whose wheels are joints of a robot.
@@ -234,6 +291,8 @@ def _settings(
     return DriveSettings(
         name=name,
         location=read.location,
+        left_radius_multiplier=drive.left_wheel_radius_multiplier,
+        right_radius_multiplier=drive.right_wheel_radius_multiplier,
         left_wheels=joints(drive.left_wheel_names),
         right_wheels=joints(drive.right_wheel_names),
         separation=drive.wheel_separation,

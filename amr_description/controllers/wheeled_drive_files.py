@@ -22,9 +22,11 @@ from amr_description.controllers.parameter_sections import listed_controllers, r
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.log import null_log
 from amr_description.model.axles import vector_text
-from amr_description.model.findings import Finding, Severity
+from amr_description.model.findings import Finding, Severity, SourceLocation
 from amr_description.model.frames import conjugate, dot, rotate, Transform, Vector
+from amr_description.model.gazebo_builder import PluginController
 from amr_description.model.gazebo_physics import gazebo_physics_of
+from amr_description.model.gazebo_plugins import PluginTag
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Joint, JointType, Robot
 from amr_description.model.rollers import described_rollers
@@ -47,6 +49,7 @@ _ALIGNED = 0.9
 _NEARLY = math.radians(5.0)
 _UP: Vector = (0.0, 0.0, 1.0)
 _LEFT: Vector = (0.0, 1.0, 0.0)
+_NO_TAGS: Mapping[str, PluginTag] = {}
 _CORNERS = {
     'front_left_wheel': (1, 1),
     'front_right_wheel': (1, -1),
@@ -83,6 +86,28 @@ def wheeled_drive_findings(robot: Robot, paths: Sequence[str]) -> tuple[Finding,
     return tuple(findings)
 
 
+def plugin_findings(robot: Robot, plugins: Sequence[PluginController]) -> tuple[Finding, ...]:
+    """
+    Return what is wrong with the mecanum and steering drives that stand for plugins of Gazebo.
+
+    Args:
+        robot: the robot, its tree sound.
+        plugins: the controllers, at whose lines and elements the findings are.
+    """
+    findings: list[Finding] = []
+    for each in plugins:
+        table = CONTROLLERS.find(each.type).parameters_type
+        check = _check_of(table)
+        if check is None or not each.tags:
+            continue
+        places = {name: SourceLocation(robot.source, tag.line) for name, tag in each.tags.items()}
+        read = ControllerParameters(
+            SourceLocation(robot.source, each.line), dict(each.parameters), places
+        )
+        findings += check(_Drive(each.name, robot, read, each.tags), build(table, read.values))
+    return tuple(findings)
+
+
 def wheeled_drive_faults(text: str, source: str, paths: Sequence[str]) -> tuple[Finding, ...]:
     """
     Return :func:`wheeled_drive_findings` on a URDF whose faults are left to the checker.
@@ -114,8 +139,16 @@ class _WheelMount:
 class _Drive:
     """One controller, and the robot."""
 
-    def __init__(self, name: str, robot: Robot, read: ControllerParameters) -> None:
+    def __init__(
+        self,
+        name: str,
+        robot: Robot,
+        read: ControllerParameters,
+        tags: Mapping[str, PluginTag] = _NO_TAGS,
+    ) -> None:
+        """``tags``: of a plugin, the elements of its parameters."""
         self.robot = robot
+        self._tags = tags
         self._name = name
         self._read = read
         self._poses = link_poses(robot, {})
@@ -152,12 +185,15 @@ class _Drive:
     def size(self, parameter: str, found: float, true: float, of: str) -> Iterator[Finding]:
         """Warn of a size that is not that of the robot; a true one of 0 is not known."""
         if true > 0.0 and abs(found - true) > _TOLERANCE * true:
+            tag = self._tags.get(parameter)
+            per = tag.per if tag else 1.0
+            written = tag.written(true) if tag else f'{parameter.rpartition(".")[2]}: {true:.4g}'
             yield self.warn(
                 (parameter,),
-                f'{parameter} is not that of the robot',
-                found=f'{found:g} m',
-                expected=f'{true:.4g} m, {of}',
-                fix=f'write {parameter.rpartition(".")[2]}: {true:.4g}',
+                f'{tag.text if tag else parameter} is not that of the robot',
+                found=f'{found * per:g} m',
+                expected=f'{true * per:.4g} m, {of if per == 1.0 else f"{per:g} times {of}"}',
+                fix=f'write {written}',
             )
 
     def radius(self, parameter: str, found: float, joints: Sequence[str]) -> Iterator[Finding]:

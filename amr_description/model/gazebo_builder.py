@@ -3,7 +3,7 @@
 """What the plugins of one robot become: joints, sensors, the body; controllers; lines to say."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 import math
 import re
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 from lxml import etree
 
 from amr_description.model.base_interfaces import BASE, COMMAND_AXES, TRUTH, truth_prefix
-from amr_description.model.gazebo_plugins import PluginElement
+from amr_description.model.gazebo_plugins import PluginElement, PluginTag
 from amr_description.model.hardware_info import (
     ComponentInfo,
     ComponentType,
@@ -33,6 +33,7 @@ BROADCASTER = 'joint_state_broadcaster/JointStateBroadcaster'
 LEAST_RATE, HIGHEST_RATE = 100, 200
 """Hz, of the controller manager; it is raised for sensors that are faster."""
 
+_NO_TAGS: Mapping[str, PluginTag] = {}
 _STATES = ('position', 'velocity', 'effort')
 _MODEL = re.compile(r'/?model/[^/]+/')
 _NO_NAME = re.compile(r'\W', re.ASCII)
@@ -52,6 +53,8 @@ class PluginController:
         origin: the plugin or sensor, for messages.
         frames: the parameters that are frames and get the prefix of the robot's; the frames of
             odometry get theirs from the controller.
+        line: of the plugin or sensor.
+        tags: the elements that give some of the parameters, by the names of these.
     """
 
     name: str
@@ -61,6 +64,8 @@ class PluginController:
     namespace: str
     origin: str
     frames: frozenset[str] = frozenset()
+    line: int = 0
+    tags: Mapping[str, PluginTag] = field(default_factory=dict)
 
     def topics_in_use(self, namespace: str) -> list[str]:
         """Return the full names of the topics that it has, by its parameters."""
@@ -215,6 +220,8 @@ class Builder:
         origin: str,
         namespace: str = '',
         frames: Collection[str] = (),
+        line: int = 0,
+        tags: Mapping[str, PluginTag] = _NO_TAGS,
     ) -> None:
         """Add a controller; ``kind`` is its type, the rest as in :class:`PluginController`."""
         rate = parameters.get('update_rate')
@@ -226,7 +233,9 @@ class Builder:
             number += 1
             free = f'{name}_{number}'
         self.controllers.append(
-            PluginController(free, kind, parameters, topics, namespace, origin, frozenset(frames))
+            PluginController(
+                free, kind, parameters, topics, namespace, origin, frozenset(frames), line, tags
+            )
         )
 
     def broadcast(

@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 from amr_description.model.gazebo_builder import Builder, gz_topic, node_name, origin_of
-from amr_description.model.gazebo_plugins import PluginElement
+from amr_description.model.gazebo_plugins import PluginElement, PluginTag
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Robot
 from amr_description.model.wheels import find_wheels
@@ -23,6 +23,7 @@ _DRIVE = 'amr_description/GazeboDiffDrive'
 _MOVE = 'amr_description/GazeboPlanarMove'
 _DRIVES = (_ACKERMANN, _DRIVE, MECANUM)
 """They publish the transform from odom to base."""
+_NO_TAGS: Mapping[str, PluginTag] = {}
 _ODOMETRY = 'amr_description/GazeboOdometryPublisher'
 _UNKNOWN_VARIANCE = 1e12
 _WORLD_FRAMES = ('', 'world', '/world', 'map', '/map')
@@ -62,14 +63,19 @@ def _diff_drive(builder: Builder, plugin: PluginElement) -> None:
         'wheel_radius': radii[0],
     }
     name = 'gazebo_diff_drive'
+    radius = ('wheel_diameter', 'wheelDiameter') if classic else ('wheel_radius',)
+    tags = {
+        'wheel_separation': plugin.tag('wheel_separation', 'wheelSeparation'),
+        'wheel_radius': plugin.tag(*radius, per=2.0 if classic else 1.0),
+    }
     if classic:
         acceleration = plugin.number('max_wheel_acceleration', 'wheelAcceleration', default=0.0)
         if acceleration > 0.0:
             parameters['max_wheel_acceleration'] = acceleration
-        _classic_drive(builder, plugin, parameters, _DRIVE, name)
+        _classic_drive(builder, plugin, parameters, _DRIVE, name, tags)
     else:
         parameters |= _limits(plugin, ('linear.x', 'angular.z'))
-        _gz_drive(builder, plugin, parameters, _DRIVE, 'diff_drive')
+        _gz_drive(builder, plugin, parameters, _DRIVE, 'diff_drive', tags)
 
 
 def _wheel_names(plugin: PluginElement) -> tuple[list[str], list[str]]:
@@ -84,6 +90,7 @@ def _wheel_names(plugin: PluginElement) -> tuple[list[str], list[str]]:
 def _mecanum(builder: Builder, plugin: PluginElement) -> None:
     """New Gazebo's drive of four mecanum wheels; Classic's is planar move."""
     corners = ('front_left', 'front_right', 'back_right', 'back_left')
+    names = tuple(zip(CORNERS, corners, strict=True))  # of controllers, and of Gazebo
     joints = [plugin.texts(f'{corner}_joint') for corner in corners]
     wheels = [names[0] for names in joints if names]
     if len(wheels) < len(corners):
@@ -106,7 +113,14 @@ def _mecanum(builder: Builder, plugin: PluginElement) -> None:
         'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5 * (separation + base),
         **_limits(plugin, ('linear.x', 'linear.y', 'angular.z')),
     }
-    _gz_drive(builder, plugin, parameters, MECANUM, 'mecanum_drive')
+    tags = {
+        'kinematics.wheels_radius': plugin.tag('wheel_radius'),
+        'kinematics.sum_of_robot_center_projection_on_X_Y_axis': plugin.tag(
+            'wheel_separation', per=2.0, also='wheelbase'
+        ),
+        **{f'{n}_wheel_command_joint_name': plugin.tag(f'{c}_joint') for n, c in names},
+    }
+    _gz_drive(builder, plugin, parameters, MECANUM, 'mecanum_drive', tags)
 
 
 def _ackermann(builder: Builder, plugin: PluginElement) -> None:
@@ -127,7 +141,15 @@ def _ackermann(builder: Builder, plugin: PluginElement) -> None:
     }
     if _can_steer(builder, plugin, traction, steering, sizes):
         parameters = _car(traction, steering, sizes)
-        _gz_drive(builder, plugin, parameters, _ACKERMANN, 'ackermann_steering')
+        tags = {
+            'wheelbase': plugin.tag('wheel_base'),
+            'traction_track_width': plugin.tag('wheel_separation'),
+            'steering_track_width': plugin.tag('kingpin_width'),
+            'traction_wheels_radius': plugin.tag('wheel_radius'),
+            'traction_joints_names': plugin.tag('left_joint'),
+            'steering_joints_names': plugin.tag('left_steering_joint'),
+        }
+        _gz_drive(builder, plugin, parameters, _ACKERMANN, 'ackermann_steering', tags)
 
 
 def _classic_ackermann(builder: Builder, plugin: PluginElement) -> None:
@@ -276,7 +298,12 @@ def _p3d(builder: Builder, plugin: PluginElement) -> None:
 
 
 def _classic_drive(
-    builder: Builder, plugin: PluginElement, parameters: dict[str, Any], kind: str, name: str
+    builder: Builder,
+    plugin: PluginElement,
+    parameters: dict[str, Any],
+    kind: str,
+    name: str,
+    tags: Mapping[str, PluginTag] = _NO_TAGS,
 ) -> None:
     """Add a wheeled drive of Classic, with odometry from its wheels or from the world."""
     is_ros1 = bool(plugin.texts('leftJoint', 'leftFrontJoint', 'commandTopic'))
@@ -303,7 +330,14 @@ def _classic_drive(
     if from_wheels:
         topics[_odometry_port(kind)] = plugin.topic('odom', 'odometryTopic')
     builder.add(
-        kind, parameters, topics, name=name, origin=origin_of(plugin), namespace=plugin.namespace
+        kind,
+        parameters,
+        topics,
+        name=name,
+        origin=origin_of(plugin),
+        namespace=plugin.namespace,
+        line=plugin.line,
+        tags=tags,
     )
     if not from_wheels:
         _classic_truth(builder, plugin, name, rate, publishes=publishes, transforms=transforms)
@@ -354,7 +388,12 @@ def _classic_covariances(plugin: PluginElement) -> dict[str, list[float]]:
 
 
 def _gz_drive(
-    builder: Builder, plugin: PluginElement, parameters: dict[str, Any], kind: str, name: str
+    builder: Builder,
+    plugin: PluginElement,
+    parameters: dict[str, Any],
+    kind: str,
+    name: str,
+    tags: Mapping[str, PluginTag] = _NO_TAGS,
 ) -> None:
     """Add a wheeled drive of new Gazebo, with odometry from its wheels."""
     rate = plugin.number('odom_publish_frequency', default=50.0)
@@ -372,7 +411,15 @@ def _gz_drive(
     }
     if kind != _DRIVE:
         del parameters['publish_rate']
-    builder.add(kind, parameters, topics, name=name, origin=origin_of(plugin))
+    builder.add(
+        kind,
+        parameters,
+        topics,
+        name=name,
+        origin=origin_of(plugin),
+        line=plugin.line,
+        tags=tags,
+    )
 
 
 def _odometry_port(kind: str) -> str:

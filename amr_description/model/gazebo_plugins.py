@@ -21,7 +21,7 @@ import re
 from lxml import etree
 
 from amr_description.model.gazebo import GazeboPlugin
-from amr_description.model.xml_reader import parse_number
+from amr_description.model.xml_reader import line_of, parse_number
 from amr_description.text import quote, truth
 
 CLASSIC = 'gazebo-ros-'
@@ -69,6 +69,29 @@ def kind_of(filename: str, name: str) -> str:
         return found['kind']
     kind = library.removeprefix('lib').replace('_', '-')
     return kind if kind.startswith(CLASSIC) else ''
+
+
+@dataclass(frozen=True, slots=True)
+class PluginTag:
+    """The element of a plugin that gives a parameter of the controller that stands for it."""
+
+    name: str
+    line: int
+    per: float = 1.0
+    """What is written, by what it means: 2 for a diameter that gives a radius."""
+    also: str = ''
+    """Another element, of which the parameter is made, too."""
+
+    @property
+    def text(self) -> str:
+        """What messages call it."""
+        return f'<{self.name}>{f" and <{self.also}>" if self.also else ""}'
+
+    def written(self, value: float) -> str:
+        """Return how it is to be written for a value of the parameter."""
+        if self.also:
+            return f'{self.text} of {value * self.per:.4g} in all'
+        return f'<{self.name}>{value * self.per:.4g}</{self.name}>'
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +170,19 @@ class PluginElement:
             return 0.0, 0.0, 0.0
         x, y, z = values
         return x, y, z
+
+    @property
+    def line(self) -> int:
+        """On which it begins."""
+        return line_of(self.element)
+
+    def tag(self, *names: str, per: float = 1.0, also: str = '') -> PluginTag:
+        """Return the element that gives a number, or would: then the line is the plugin's."""
+        found = (each for name in names for each in self.element.iterchildren(name))
+        first = next(found, None)
+        if first is None:
+            return PluginTag(names[0], self.line, per, also)
+        return PluginTag(str(first.tag), line_of(first), per, also)
 
     def flag(self, *names: str, default: bool) -> bool:
         """Return a truth value: true or false, 1 or 0."""

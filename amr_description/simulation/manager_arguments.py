@@ -5,7 +5,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from amr_description.controllers.drive_files import drive_warnings
+from amr_description.controllers.drive_files import drive_warnings, plugin_warnings
 from amr_description.controllers.roller_files import rollers_of_controllers, rollers_of_plugins
 from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of, missing_files, named_files
@@ -43,6 +43,8 @@ def manager_arguments(
     Raises:
         ParameterError: A parameter file cannot be read.
     """
+    for finding in plugin_warnings(robot, translation.controllers):
+        log(Severity.WARN, finding.text)
     host = ros2_control_host_of(robot)
     rules = [word for rule in host.remappings for word in ('-r', rule)]
     arguments = [*ros_args, *rules]

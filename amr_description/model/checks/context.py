@@ -14,6 +14,7 @@ from lxml import etree
 from amr_description.model.findings import Finding, SourceLocation
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo import GazeboPlugin
+from amr_description.model.gazebo_plugins import PluginTag
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.kinematics import link_poses
 from amr_description.model.mended_inertials import bodies_of, mended_inertials, MendedInertial
@@ -42,12 +43,35 @@ class DriveSettings:
     publishes_transform: bool
     position_feedback: bool
     open_loop: bool
+    left_radius_multiplier: float = 1.0
+    right_radius_multiplier: float = 1.0
+    tags: Mapping[str, PluginTag] | None = None
+    """Of a plugin of Gazebo: the elements that give its sizes; None: it is a controller's."""
     locations: Mapping[str, SourceLocation] = field(default_factory=dict)
 
     @property
     def wheels(self) -> tuple[str, ...]:
         """The names of all its wheels, the left ones first."""
         return (*self.left_wheels, *self.right_wheels)
+
+    @property
+    def is_plugin(self) -> bool:
+        """Whether it is a plugin of Gazebo."""
+        return self.tags is not None
+
+    def named(self, parameter: str) -> str:
+        """Return what a parameter is called where it is written."""
+        return self.tags[parameter].text if self.tags else parameter
+
+    def per(self, parameter: str) -> float:
+        """Return what is written, by what it means: 2 for a diameter that gives a radius."""
+        return self.tags[parameter].per if self.tags else 1.0
+
+    def written(self, parameter: str, value: float) -> str:
+        """Return a parameter as it is to be written, of a value of it."""
+        if self.tags:
+            return self.tags[parameter].written(value)
+        return f'{parameter}: {_decimal(value)}'
 
     def location_of(self, parameter: str) -> SourceLocation:
         """Return the line of a parameter, or of the controller if no file sets it."""
@@ -60,6 +84,12 @@ class DriveSettings:
     def warning(self, parameter: str, what: str, **details: Any) -> Finding:
         """Return a warning at a parameter; ``details`` as in Finding.warning."""
         return Finding.warning(*self.location_of(parameter), f'{self.name}: {what}', **details)
+
+
+def _decimal(value: float) -> str:
+    """Return a number as a parameter of type double is written."""
+    text = f'{value:.4g}'
+    return text if '.' in text or 'e' in text else f'{text}.0'
 
 
 FileExists: TypeAlias = Callable[[str], bool]
@@ -130,6 +160,10 @@ class CheckContext:
             and joint.type is JointType.CONTINUOUS
             and joint.child in self.poses
         )
+
+    def wheels_of(self, drive: DriveSettings) -> tuple[Wheel, ...]:
+        """Return the wheels of a drive whose shapes are round about their joints."""
+        return find_wheels(self.robot, drive.wheels)
 
     @cached_property
     def meshes(self) -> tuple[MeshUse, ...]:

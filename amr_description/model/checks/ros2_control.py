@@ -18,6 +18,8 @@ from amr_description.text import closest_match, quote, quote_all
 
 # A difference of more than this share is an error, not rounding.
 _TOLERANCE = 0.01
+# Of a radius with a multiplier, which may be that of a real wheel, fitted.
+_FITTED_TOLERANCE = 0.02
 # m; wheels of one side that are farther apart along x scrub sideways in a turn.
 _SCRUBBING = 0.01
 _MANY_COORDINATES = (JointType.PLANAR, JointType.FLOATING)
@@ -114,6 +116,8 @@ def one_block_commands(context: CheckContext) -> Iterator[Finding]:
 def wheel_names_are_joints(context: CheckContext) -> Iterator[Finding]:
     """Each wheel of a controller is a joint with a velocity command and a state interface."""
     for drive in context.inputs.drives:
+        if drive.is_plugin:
+            continue  # it has them by being one
         for parameter, names in _named_wheels(drive):
             for name in names:
                 yield from _check_wheel(context, drive, parameter, name)
@@ -124,7 +128,7 @@ def base_frame_is_the_root(context: CheckContext) -> Iterator[Finding]:
     roots = context.robot.roots
     for drive in context.inputs.drives if roots else ():
         base, root = drive.base_frame, roots[0].name
-        if not drive.publishes_transform or base == root:
+        if not drive.publishes_transform or base == root or drive.is_plugin:
             continue
         joint = context.robot.parent_joint(base)
         yield drive.warning(
@@ -145,43 +149,71 @@ def sides_are_not_swapped(context: CheckContext) -> Iterator[Finding]:
     for drive in context.inputs.drives:
         left, right = _mean_y(context, drive.left_wheels), _mean_y(context, drive.right_wheels)
         if left < right:
+            names = 'left_wheel_names and right_wheel_names'
             yield drive.warning(
                 'left_wheel_names',
                 'left and right wheels are swapped: turns are inverted',
                 found=f'the left wheels at y = {left:g} m, the right ones at y = {right:g} m',
                 expected='the left wheels at the greater y',
-                fix='swap left_wheel_names and right_wheel_names',
+                fix=f'swap {"<left_joint> and <right_joint>" if drive.is_plugin else names}',
             )
 
 
 def wheel_radius_agrees(context: CheckContext) -> Iterator[Finding]:
-    """The radius is that of the wheels' collision shapes."""
-    radii = {wheel.joint: wheel.radius for wheel in context.wheels}
+    """The radius, with the multiplier of each side, is that of the wheels' collision shapes."""
     for drive in context.inputs.drives:
-        for name in drive.wheels:
-            radius = radii.get(name, math.nan)
-            if abs(radius - drive.radius) > _TOLERANCE * radius:
-                yield drive.warning(
-                    'wheel_radius',
-                    f'wheel_radius is not that of {quote(name)}',
-                    found=f'{drive.radius:g} m',
-                    expected=f'{radius:g} m, the radius of its collision shape',
-                    fix=f'write wheel_radius: {_decimal(radius)}',
-                )
+        radii = {wheel.joint: wheel.radius for wheel in context.wheels_of(drive)}
+        sides = (
+            ('left', drive.left_wheels, drive.left_radius_multiplier),
+            ('right', drive.right_wheels, drive.right_radius_multiplier),
+        )
+        for side, names, multiplier in sides:
+            tolerance = _TOLERANCE if multiplier == 1.0 else _FITTED_TOLERANCE
+            wrong = (
+                (name, radius)
+                for name in names
+                if (radius := radii.get(name, 0.0))
+                and abs(radius - drive.radius * multiplier) > tolerance * radius
+            )
+            name, radius = next(wrong, ('', 0.0))
+            if name:
+                yield _wrong_radius(drive, side, multiplier, name, radius)
                 break
+
+
+def _wrong_radius(
+    drive: DriveSettings, side: str, multiplier: float, name: str, radius: float
+) -> Finding:
+    """Return the finding on a wheel of another radius than a drive has, m."""
+    per = drive.per('wheel_radius')
+    found, expected = f'{drive.radius * per:g} m', f'{radius * per:g} m'
+    of = 'diameter' if per == 2.0 else 'radius'
+    fix = f'write {drive.written("wheel_radius", radius / multiplier)}'
+    if multiplier != 1.0:
+        found = f'{drive.radius * multiplier:g} m, {drive.radius:g} m times {multiplier:g}'
+        if abs(drive.radius - radius) <= _FITTED_TOLERANCE * radius:
+            fix = f'write {side}_wheel_radius_multiplier: 1.0'
+    return drive.warning(
+        'wheel_radius' if multiplier == 1.0 else f'{side}_wheel_radius_multiplier',
+        f'{drive.named("wheel_radius")} is not that of {quote(name)}',
+        found=found,
+        expected=f'{expected}, the {of} of its collision shape',
+        fix=fix,
+    )
 
 
 def wheel_separation_agrees(context: CheckContext) -> Iterator[Finding]:
     """The separation is the distance between the left and the right wheels along y."""
     for drive in context.inputs.drives:
         apart = _track(context, drive)
-        if abs(apart - drive.separation) > _TOLERANCE * apart:
+        scrubs = drive.is_plugin and _length(context, drive) > _SCRUBBING
+        if abs(apart - drive.separation) > _TOLERANCE * apart and not scrubs:
             yield drive.warning(
                 'wheel_separation',
-                'wheel_separation is not that of the wheels',
+                f'{drive.named("wheel_separation")} is not that of the wheels',
                 found=f'{drive.separation:g} m',
                 expected=f'{apart:g} m between the joints on the left and on the right',
-                fix=f'write wheel_separation: {_decimal(apart)}',
+                fix=f'write {drive.written("wheel_separation", apart)}',
             )
 
 
@@ -190,26 +222,52 @@ def scrubbing_is_accounted_for(context: CheckContext) -> Iterator[Finding]:
     A robot with fixed wheels one behind the other has a separation multiplier.
 
     Such wheels scrub sideways in a turn, and the robot turns less than their speeds say: for the
-    Coulomb friction of four equal wheels, L apart along x and W along y, by 1 + (L / W)².
+    Coulomb friction of four equal wheels, L apart along x and W along y, by 1 + (L / W)². A plugin
+    of Gazebo has no multiplier, but a separation that may be greater.
     """
     for drive in context.inputs.drives:
-        x = [
-            context.poses[joint.child].translation[0]
-            for joint in context.speed_joints
-            if joint.name in drive.left_wheels
-        ]
-        length = max(x, default=0.0) - min(x, default=0.0)
-        width = _track(context, drive)
-        if drive.separation_multiplier == 1.0 and length > _SCRUBBING and width > 0.0:
-            guess = 1.0 + length / width * (length / width)
+        length, width = _length(context, drive), _track(context, drive)
+        scrubs = length > _SCRUBBING and width > 0.0 and drive.separation_multiplier == 1.0
+        if not scrubs or _is_widened(context, drive):
+            continue
+        guess = 1.0 + length / width * (length / width)
+        if drive.is_plugin:
             yield drive.warning(
                 'wheel_separation',
-                'wheels one behind the other scrub in a turn; odometry will turn '
-                'more than the robot',
-                found='wheel_separation_multiplier 1.0',
-                expected=f'about 1 + (L/W)² = {guess:.2f}',
-                fix=f'write wheel_separation_multiplier: {guess:.2f}, then measure a full turn',
+                'wheels one behind the other scrub in a turn; the robot turns less than told',
+                found=f'{drive.named("wheel_separation")} of {drive.separation:g} m',
+                expected=f'about {width * guess:.3g} m, 1 + (L/W)² = {guess:.2f} times as much',
+                fix=f'write {drive.written("wheel_separation", width * guess)}, then measure a '
+                'full turn',
             )
+            continue
+        yield drive.warning(
+            'wheel_separation',
+            'wheels one behind the other scrub in a turn; odometry will turn more than the robot',
+            found='wheel_separation_multiplier 1.0',
+            expected=f'about 1 + (L/W)² = {guess:.2f}',
+            fix=f'write wheel_separation_multiplier: {guess:.2f}, then measure a full turn',
+        )
+
+
+def _length(context: CheckContext, drive: DriveSettings) -> float:
+    """Return how far the wheels of a side are apart along x, m."""
+    x = [
+        context.poses[joint.child].translation[0]
+        for joint in context.robot.joints
+        if joint.name in drive.left_wheels
+        and joint.type is JointType.CONTINUOUS
+        and joint.child in context.poses
+    ]
+    return max(x, default=0.0) - min(x, default=0.0)
+
+
+def _is_widened(context: CheckContext, drive: DriveSettings) -> bool:
+    """Return whether a plugin's separation is greater for wheels that scrub, by half at least."""
+    length, width = _length(context, drive), _track(context, drive)
+    if not (drive.is_plugin and length > _SCRUBBING and width > 0.0):
+        return False
+    return drive.separation >= width * (1.0 + 0.5 * (length / width) ** 2)
 
 
 def _components(context: CheckContext) -> Iterator[tuple[HardwareInfo, ComponentInfo]]:
@@ -278,9 +336,3 @@ def _mean_y(context: CheckContext, names: tuple[str, ...]) -> float:
 def _track(context: CheckContext, drive: DriveSettings) -> float:
     """Return the distance of left and right wheels along y (m); NaN if it is not known."""
     return abs(_mean_y(context, drive.left_wheels) - _mean_y(context, drive.right_wheels))
-
-
-def _decimal(value: float) -> str:
-    """Return a number as a parameter of type double is written."""
-    text = f'{value:.4g}'
-    return text if '.' in text or 'e' in text else f'{text}.0'

@@ -55,7 +55,23 @@ def test_each_fault_of_the_tutorial_is_named_once(capsys):
     assert check_urdf.main([*arguments, '--strict']) == 1
 
 
+BOTH = '\n    left_wheel_radius_multiplier: {0}\n    right_wheel_radius_multiplier: {0}'
 FAULTS = {
+    'multipliers that are too many': (
+        'wheel_radius: 0.1',
+        f'wheel_radius: 0.1{BOTH.format(0.8)}',
+        0,
+        'warning: c.yaml:11: drive: wheel_radius is not that of "left_joint": found 0.08 m, 0.1 m '
+        'times 0.8, expected 0.1 m, the radius of its collision shape; write '
+        'left_wheel_radius_multiplier: 1.0',
+    ),
+    'a multiplier of one side': (
+        'wheel_radius: 0.1',
+        'wheel_radius: 0.2\n    left_wheel_radius_multiplier: 0.5',
+        0,
+        'warning: c.yaml:10: drive: wheel_radius is not that of "right_joint": found 0.2 m, '
+        'expected 0.1 m',
+    ),
     'unknown wheel': (
         '[right_joint]',
         '[rigth_joint]',
@@ -124,6 +140,8 @@ def test_a_fault_is_named_with_its_line_and_the_fix(check, fault):
     [
         ('wheel_radius: 0.1', 'wheel_radius: 0.1005'),
         ('wheel_separation: 0.3', 'wheel_separation: 0.302'),
+        ('wheel_radius: 0.1', f'wheel_radius: 0.125{BOTH.format(0.8)}'),
+        ('wheel_radius: 0.1', f'wheel_radius: 0.1{BOTH.format(1.015)}'),
         ('base_frame_id: base_footprint', 'base_frame_id: base_link\n    enable_odom_tf: false'),
     ],
 )
