@@ -264,6 +264,13 @@ def whole_content_of(text: str) -> Any:
     return yaml.load(text, Loader=_SourceLoader)
 
 
+def file_names(text: str) -> list[str]:
+    """Return the names in a list with commas; a file whose own name has commas is one."""
+    if Path(text).is_file():
+        return [text]
+    return [name for each in text.split(',') if (name := each.strip())]
+
+
 def read_parameter_file(path: Path) -> dict[str, Any]:
     """
     Return a parameter file as YAML gives it: nodes, perhaps below their namespaces.

@@ -44,9 +44,22 @@ def with_sensors(urdf: str, sensors: bool) -> str:
     return URDF_WITH_SENSORS
 
 
-def controllers_file(controllers: str, urdf: str, description: str) -> Path:
+def given_files(controllers: str) -> list[Path]:
     """
-    Return the parameter file of the controllers of a stack.
+    Return the parameter files of ``controllers:=``, between commas.
+
+    Raises ResourceError: one is not there.
+    """
+    if not controllers:
+        return []
+    from amr_description.parameter_files import file_names
+
+    return [path_of(each, 'controllers') for each in file_names(controllers)]
+
+
+def controllers_files(controllers: str, urdf: str, description: str) -> list[Path]:
+    """
+    Return the parameter files of the controllers of a stack: one, unless several are given.
 
     Args:
         controllers: as given; '': that which the URDF names for its ros2_control plugin, else the
@@ -59,7 +72,11 @@ def controllers_file(controllers: str, urdf: str, description: str) -> Path:
         UsageError: it has to be given.
     """
     if controllers:
-        return path_of(controllers, 'controllers')
+        return given_files(controllers)
+    return [_file_of(urdf, description)]
+
+
+def _file_of(urdf: str, description: str) -> Path:
     shipped = path_of(SHIPPED)
     if urdf == URDF:
         return shipped

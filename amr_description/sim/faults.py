@@ -123,6 +123,10 @@ _warnings: deque[str] = deque(maxlen=1000)
 _BAD_VALUE = re.compile(r'value in (QPOS|QVEL|QACC|CTRL) at \w+ (\d+)')
 _QUANTITY = {'QPOS': 'position', 'QVEL': 'velocity', 'QACC': 'acceleration', 'CTRL': 'command'}
 
+_TIPPED = math.cos(math.radians(30.0))
+"""Of the angle between the robot's z and what it was at first; what leans so far falls."""
+_FREE = 6
+"""Degrees of freedom of a body without joints."""
 _LOST = 'lost '
 _DEEP = 0.005
 """m; bodies that overlap by more are pushed apart with unphysical forces."""
@@ -180,6 +184,7 @@ class FaultMonitor:
         self._last_seen: dict[str, int] = {}
         self._capped = 0
         self._tilted: dict[str, int] = {}
+        self._first_axes: dict[str, np.ndarray] = {}
         self._next_slow_check = 0
 
     def release(self, robot: str = '') -> None:
@@ -228,6 +233,8 @@ class FaultMonitor:
                 self._report_fall(name, height)
             if name in on_wheels:
                 self._check_tilt(name, index - 2)
+            else:
+                self._check_tipping(name, index - 2)
 
     # --- warnings of MuJoCo -------------------------------------------------------------------
 
@@ -348,6 +355,27 @@ class FaultMonitor:
                 f'{self._when}; odometry is wrong while it is so. Likely: {found.likely_cause}',
                 is_physical=False,
             )
+
+    def _check_tipping(self, name: str, position: int) -> None:
+        """Report that a robot with joints and without wheels lies: an arm that is not fixed."""
+        model, axes = self._engine.model, np.empty(9)
+        mujoco.mju_quat2Mat(axes, self._engine.data.qpos[position + 3 : position + 7])
+        axis = axes[2::3]
+        cosine = float(axis @ self._first_axes.setdefault(name, axis))
+        if cosine > _TIPPED:
+            return
+        root = int((model.jnt_qposadr <= position).sum()) - 1
+        tree = model.dof_treeid[model.jnt_dofadr[root]]
+        if int((model.dof_treeid == tree).sum()) <= _FREE:
+            return  # a thing without joints
+        angle = round(math.degrees(math.acos(max(-1.0, cosine))))
+        self._report(
+            Severity.WARN,
+            f'tipped {name}',
+            f"robot '{name}' has tipped over, by {angle} deg{self._when}. Likely: it is made to "
+            'be bolted down, and none of its links is called world: fix it (fixed:=true)',
+            is_physical=False,
+        )
 
     # --- reports ------------------------------------------------------------------------------
 

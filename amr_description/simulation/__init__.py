@@ -18,6 +18,7 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``page_backend.py``        … … for its server, which has a thread of its own
 
 ``api.py``                 what a simulation and its robots can do, wherever they run
+``given.py``               what one is given: a description, its arguments, parameter files
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds
 ``parameters.py``          the parameters of a simulation, which are those of the simulator's node
 ``published.py``           what it publishes beside its controllers, and the recording of all

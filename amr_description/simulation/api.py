@@ -31,17 +31,17 @@ from types import MappingProxyType, TracebackType
 from typing import Any, Generic, Protocol, Self, TYPE_CHECKING, TypeVar
 import warnings
 
-from amr_description.ament_index import path_of
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.model.controller_files import files_of, manager_of
-from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo_bridge import bridge_of
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot as Description
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
+from amr_description.parameter_files import file_names
+from amr_description.simulation.given import given_files, GivenDescription
 from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
 from amr_description.simulation.tracebacks import is_for_the_test, without_frames
 
@@ -151,7 +151,7 @@ class SimulationApi(ABC, Generic[RobotType]):
     def __init__(
         self,
         urdf: str | Path,
-        controllers: str | Path | None = None,
+        controllers: str | Path | Sequence[str | Path] | None = None,
         *,
         world: str | Path = 'empty',
         rtf: float = 0.0,
@@ -161,32 +161,34 @@ class SimulationApi(ABC, Generic[RobotType]):
         robots: Mapping[str, Transform] | None = None,
         parameters: Mapping[str, Any] | None = None,
         record: str | Path | None = None,
+        xacro_args: str | Mapping[str, Any] = '',
+        fixed: bool = False,
     ) -> None:
         """
         Describe the simulation; it is started by ``with``, or by :meth:`start`.
 
         Args:
             urdf: A URDF or xacro file, a ``package://`` URI, or the text itself.
-            controllers: Parameter file of the controller manager; None: those that the URDF
-                names, else that of this package, if it is for this robot.
+            controllers: Parameter file of the controller manager, or several; None: those that
+                the URDF names, else that of this package, if it is for this robot.
             world: A shipped name or an MJCF file.
             rtf: Real-time factor, to watch the simulation; 0: as fast as possible. The results
                 are the same.
             activate: The controllers to spawn, in order; None: all of the parameter file. One
                 that cannot be, or claims what another one has claimed, is then left out or
                 inactive, with a warning.
-            name: Of the robot in the world; empty: that of the URDF, with _ for blanks and the
-                like.
-            pose: Transform from the robot's root link to the world. A robot that would be inside
-                the ground is lifted until it is free.
+            name: Of the robot in the world; empty: that of the URDF, with _ for blanks.
+            pose: Transform from the robot's root link to the world; in the ground it is lifted.
             robots: Several robots instead of one: name → pose. Each is in the namespace of its
                 name, which the parameter file has to cover (``/**/controller_manager: …``).
             parameters: Further parameters of ``mujoco_sim``.
             record: The folder of a bag to be made; see :meth:`record`.
+            xacro_args: Of a xacro file: ``{'dof': 7}``, or ``'dof:=7 hand:=true'``.
+            fixed: Whether the root link is fixed to the world, as that of an arm.
         """
         if not (math.isfinite(rtf) and rtf >= 0.0):
             raise SimulationError(f'rtf is {rtf}; a real-time factor is 0 or above')
-        self._urdf = str(urdf)
+        self._given = GivenDescription(str(urdf), xacro_args, fixed)
         self._activate = activate
         if name and robots is not None:
             raise SimulationError(f"name is '{name}', and robots have the names of robots")
@@ -198,7 +200,7 @@ class SimulationApi(ABC, Generic[RobotType]):
             'world': _absolute(world),
             'paused': True,
             'real_time_factor': float(rtf),
-            'controllers': str(path_of(str(controllers))) if controllers else '',
+            'controllers': ','.join(map(str, given_files(controllers))),
             'camera_renderer': 'rays',  # as exact, and the same, on any machine
             **(parameters or {}),
         }
@@ -228,7 +230,7 @@ class SimulationApi(ABC, Generic[RobotType]):
         if self._is_running:
             raise SimulationError('the simulation has been started already')
         with ExitStack() as stack:
-            self._description = self._read_description()
+            self._description = self._given.text(lambda text: warnings.warn(text, stacklevel=7))
             # Before anything is started: what is wrong with it is told at once.
             self._robot_model = parse_urdf(self._description)
             self._is_controlled = bool(hardware_of(translate(self._robot_model).robot))
@@ -259,16 +261,11 @@ class SimulationApi(ABC, Generic[RobotType]):
                 "a simulation runs inside its block: 'with Simulation(…) as sim:'"
             )
 
-    def _read_description(self) -> str:
-        if self._urdf.lstrip().startswith('<'):
-            return self._urdf
-        return description_at(self._urdf, warn=lambda text: warnings.warn(text, stacklevel=7))
-
     def _parameter_files(self) -> list[Path]:
         """Return the parameter files that the simulator reads, by the same rule."""
         given = self._parameters['controllers']
         if given:
-            return [Path(given)]
+            return [Path(each) for each in file_names(given)]
         return files_of(self._robot_model)
 
     @abstractmethod

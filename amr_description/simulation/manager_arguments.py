@@ -14,7 +14,7 @@ from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers
-from amr_description.parameter_files import read_parameter_file
+from amr_description.parameter_files import file_names, read_parameter_file
 from amr_description.text import quote_all
 
 
@@ -36,7 +36,7 @@ def manager_arguments(
         hardware: What its ``<ros2_control>`` blocks say.
         namespace: Of the manager.
         translation: What stands for plugins of Gazebo.
-        controllers: Path of the parameter file, or empty.
+        controllers: Paths of the parameter files, between commas, or empty.
         ros_args: ROS arguments for every manager and controller.
         log: Of the simulator.
 
@@ -61,13 +61,13 @@ def rollers_of(
     robot: Robot, translation: GazeboTranslation, controllers: str
 ) -> Mapping[str, Rollers]:
     """Return the rollers of wheels of which only the parameters of a controller tell."""
-    paths = [controllers] if controllers else [str(path) for path in files_of(robot)]
+    paths = file_names(controllers) or [str(path) for path in files_of(robot)]
     return rollers_of_controllers(robot, paths) | rollers_of_plugins(translation)
 
 
 def _parameter_files(robot: Robot, controllers: str, log: Log) -> Sequence[str]:
     """Return ``--params-file`` arguments: of the parameter, else the URDF, else shipped."""
-    paths = [controllers] if controllers else _files_of(robot, log)
+    paths = file_names(controllers) or _files_of(robot, log)
     for path in paths:
         read_parameter_file(Path(path))  # its errors have a line number, rcl's have none
     for finding in drive_warnings(robot, paths):

@@ -29,8 +29,9 @@ class SimulationParameters:
     )
     controllers: str = parameter(
         '',
-        'Parameter file of the controller managers; empty: what the <gazebo> block of the URDF '
-        'names, else that of this package, if it is for this robot',
+        'Parameter files of the controller managers, between commas, one over the other; empty: '
+        'what the <gazebo> block of the URDF names, else that of this package, if it is for this '
+        'robot',
         read_only=True,
     )
     bridge: str = parameter(

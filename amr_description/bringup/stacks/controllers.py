@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from amr_description.ament_index import path_of
 from amr_description.bringup import exited_cleanly, Node
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.controller_files import controllers_file, SHIPPED, URDF
+from amr_description.bringup.controller_files import controllers_files, given_files, SHIPPED, URDF
 from amr_description.bringup.input_files import Note
 from amr_description.errors import DescriptionError, UsageError
 from amr_description.text import quote_all, suggestion
@@ -46,6 +46,8 @@ class SpawnPlan:
     remappings: tuple[tuple[str, str], ...] = ()
     """Of all controllers, by the URDF: (from, to)."""
     notes: tuple[Note, ...] = ()
+    is_given: bool = False
+    """Whether the files are those of the user, and not those that the URDF names."""
     plugin_twist: str = ''
     """The topic of ``geometry_msgs/msg/Twist`` by which a plugin of Gazebo drives; '': none."""
 
@@ -57,7 +59,7 @@ class SpawnPlan:
     @property
     def parameter(self) -> str:
         """The parameter ``controllers`` of the simulator; '': those that the URDF names."""
-        return str(self.files[0]) if len(self.files) == 1 else ''
+        return ','.join(map(str, self.files)) if self.is_given or len(self.files) == 1 else ''
 
 
 def plan_controllers(
@@ -74,8 +76,8 @@ def plan_controllers(
     Args:
         urdf: the description as given.
         description: its text.
-        controllers: the parameter file as given; '': that which the URDF names, else the shipped
-            one, if it is for this robot.
+        controllers: the parameter files as given, between commas; '': those that the URDF names,
+            else the shipped one, if it is for this robot.
         activate: the names as given; '': all.
         namespace: that of the robot, absolute; '': that of its URDF.
         bridge: a configuration file of ros_gz_bridge; '': none.
@@ -93,7 +95,7 @@ def plan_controllers(
         robot = parse(description, urdf)
         return _plan(urdf, robot, controllers, wanted, namespace, bridge)
     except DescriptionError:  # the node that reads it says where, and what would do
-        return SpawnPlan(files=(controllers_file(controllers, urdf, description),))
+        return SpawnPlan(files=tuple(controllers_files(controllers, urdf, description)))
 
 
 def _plan(
@@ -114,7 +116,7 @@ def _plan(
     from amr_description.model.gazebo_translation import translate
     from amr_description.model.ros2_control_tag import hardware_of
 
-    given = [path_of(controllers, 'controllers')] if controllers else []
+    given = given_files(controllers)
     plugins = translate(robot)
     if bridge:
         plugins = bridged(plugins, read_bridge(path_of(bridge, 'bridge')))
@@ -140,7 +142,7 @@ def _plan(
             )
     chosen = tuple(wanted) or tuple(names)
     if robot.name == AMR and chosen == PAIR and own_namespace == '/':
-        return SpawnPlan(files=tuple(files), notes=tuple(notes))
+        return SpawnPlan(files=tuple(files), notes=tuple(notes), is_given=bool(given))
     by_name = {each.name: each for each in found}
     return SpawnPlan(
         chosen,
@@ -150,6 +152,7 @@ def _plan(
         manager,
         tuple(rule for rule in map(remapping, ros2_control_host_of(robot).remappings) if rule),
         tuple(notes),
+        bool(given),
         plugins.twist_topic(namespace),
     )
 

@@ -26,7 +26,7 @@ from amr_description.bringup import (
 )
 from amr_description.bringup.controller_files import (
     ABOUT_SENSORS,
-    controllers_file,
+    controllers_files,
     require_namespaces,
     URDF,
     with_sensors,
@@ -81,13 +81,15 @@ def fleet(
         f'spacing:={spacing}: the robots would touch; they need more than {needed:.2f} m',
     )
     positions = dict(_positions(robots, spacing or needed + _GAP))
-    file = controllers_file(controllers, urdf, description)
-    require_namespaces(file, list(positions))
+    files = controllers_files(controllers, urdf, description)
+    for file in files:
+        require_namespaces(file, list(positions))
+    joined = ','.join(map(str, files))
     plan = plan_controllers(
-        urdf, description, controllers and str(file), namespace=f'/{next(iter(positions))}'
+        urdf, description, controllers and joined, namespace=f'/{next(iter(positions))}'
     )
     # 1. The simulated world, empty so far; it publishes /clock.
-    mujoco_sim = _simulator(world, rtf, plan.parameter or str(file), new_folder(record))
+    mujoco_sim = _simulator(world, rtf, plan.parameter or joined, new_folder(record))
     # 2. The origins of the odometry frames: they join the robots in one tree of frames.
     map_publisher = Node(
         'robot_state_publisher',
@@ -107,7 +109,7 @@ def fleet(
         ],
         ready_when=up,
         next_steps=_how_to_drive(list(positions), plan),
-        notes=[*notes_on([path_of(urdf), file]), *plan.notes],
+        notes=[*notes_on([path_of(urdf), *files]), *plan.notes],
     )
 
 

@@ -27,7 +27,7 @@ from amr_description.bringup import (
     started,
 )
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.controller_files import controllers_file, URDF
+from amr_description.bringup.controller_files import controllers_files, URDF
 from amr_description.bringup.input_files import Note
 from amr_description.bringup.stacks.controllers import plan_controllers, spawners
 from amr_description.bringup.stacks.next_steps import next_steps_of
@@ -116,10 +116,11 @@ def _controlled(
         start_when: what the controller manager waits for.
         timeout: of that wait, s; None: the default.
     """
-    file = controllers_file(controllers, urdf, description)
+    given = controllers_files(controllers, urdf, description)
     # A manager of its own node: in no namespace that a plugin of Gazebo has.
-    plan = plan_controllers(urdf, description, controllers and str(file), namespace='/')
-    files = [path_of(urdf), *(plan.files or [file])]
+    joined = controllers and ','.join(map(str, given))
+    plan = plan_controllers(urdf, description, joined, namespace='/')
+    files = [path_of(urdf), *(plan.files or given)]
     ros2_control_node = Node(
         'ros2_control_node',
         parameters=[*files[1:], _SYSTEM_CLOCK],

@@ -9,6 +9,7 @@ from dataclasses import asdict
 import json
 import os
 from pathlib import Path
+import re
 import signal
 import subprocess
 import sys
@@ -90,6 +91,8 @@ def _wait(process: subprocess.Popen[bytes], timeout: float) -> tuple[bool, float
     return late.is_set(), usage.ru_utime + usage.ru_stime
 
 
+_OF_ROBOT = re.compile(r'([^\s:=]+)=(?=[^\s:=]+:=)')
+"""``ROBOT=`` before the first argument of a xacro file."""
 _PREFIX_PATH = 'AMENT_PREFIX_PATH'
 
 
@@ -106,7 +109,14 @@ def main(arguments: Sequence[str]) -> int:
     before = os.environ.get(_PREFIX_PATH, '')
     os.environ[_PREFIX_PATH] = os.pathsep.join([*map(str, own), *([before] if before else [])])
     jobs = [
-        Job(name, str(file.absolute()), tuple(options.controllers), replacements)
+        Job(
+            name,
+            str(file.absolute()),
+            tuple(options.controllers),
+            replacements,
+            ' '.join(given_to(name, options.xacro_args)),
+            name in options.fixed or 'all' in options.fixed,
+        )
         for name, file in zip(robot_names(files), files, strict=True)
         if not options.only or any(word in name for word in options.only)
     ]
@@ -140,6 +150,17 @@ def _try_all(jobs: Sequence[Job], count: int, timeout: float) -> list[TrialFindi
             raise
 
 
+def given_to(robot: str, given: Sequence[str]) -> list[str]:
+    """Return what ``[ROBOT=]TEXT`` give a robot: its own, else those of all."""
+    pairs = [_OF_ROBOT.match(each) for each in given]
+    own = [
+        text[pair.end() :]
+        for text, pair in zip(given, pairs, strict=True)
+        if pair and pair[1] == robot
+    ]
+    return own or [text for text, pair in zip(given, pairs, strict=True) if not pair]
+
+
 def _replacement(text: str) -> tuple[str, str]:
     old, separator, new = text.partition('=')
     if not (old and separator):
@@ -160,7 +181,22 @@ def _parser() -> argparse.ArgumentParser:
         action='append',
         default=[],
         metavar='[ROBOT=]FILE',
-        help='the parameter file of all robots, or of one; may be given more than once',
+        help='the parameter file of all robots, or of one; given more than once for one robot, '
+        'the files are read one over the other',
+    )
+    add(
+        '--xacro-args',
+        action='append',
+        default=[],
+        metavar='[ROBOT=]NAME:=VALUE …',
+        help='arguments of all xacro files, or of one; may be given more than once',
+    )
+    add(
+        '--fixed',
+        action='append',
+        default=[],
+        metavar='ROBOT',
+        help='have its root link fixed to the world, as that of an arm; all: of every robot',
     )
     add(
         '--replace',

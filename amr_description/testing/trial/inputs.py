@@ -5,7 +5,8 @@ What is tried: the descriptions of a folder, and the parameter file that belongs
 
 The parameter file of a robot is, in this order,
 
-1. what the command line gives it: ``--controllers ROBOT=FILE``, or ``--controllers FILE`` for all;
+1. what the command line gives it: ``--controllers ROBOT=FILE``, or ``--controllers FILE`` for all,
+   each more than once if there are several, one over the other;
 2. the file of its name beside it: ``robot.yaml`` for ``robot.urdf``;
 3. what the plugin in its ``<gazebo>`` block names: the simulator reads that by itself;
 4. the one file in ``config/`` of a package that the description speaks of (its meshes, the name of
@@ -58,9 +59,9 @@ class TrialParameters:
     """How they were found."""
 
     @property
-    def told(self) -> Path | None:
-        """The one that the simulator is told; None: it finds them by itself."""
-        return None if self.by == DESCRIPTION or not self.files else self.files[0]
+    def told(self) -> Sequence[Path] | None:
+        """Those that the simulator is told; None: it finds them by itself."""
+        return None if self.by == DESCRIPTION or not self.files else self.files
 
 
 def descriptions(paths: Iterable[Path]) -> list[Path]:

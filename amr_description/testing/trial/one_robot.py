@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import json
 import os
 from pathlib import Path
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -21,10 +22,10 @@ import time
 import warnings
 
 from amr_description.errors import AmrError
-from amr_description.model.description_file import description_at
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse
+from amr_description.simulation.given import GivenDescription
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import Active, BringUp, find_manager, logged
 from amr_description.testing.trial.driving import DriveTrial
@@ -57,6 +58,8 @@ class Job:
     file: str
     controllers: tuple[str, ...] = ()
     replacements: tuple[tuple[str, str], ...] = ()
+    xacro_args: str = ''
+    is_fixed: bool = False
     check_timeout: float = 60.0
 
 
@@ -94,7 +97,10 @@ class Trial:
         self._enter('read')
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter('always')
-            text = description_at(str(file.absolute()), warn=self._warn)
+            given_description = GivenDescription(
+                str(file.absolute()), self._job.xacro_args, self._job.is_fixed
+            )
+            text = given_description.text(self._warn)
             given = parameters_of(source, text, self._job.robot, own, self._job.controllers)
             self.found.parameters = [str(each) for each in given.files]
             self.found.parameters_by = given.by
@@ -109,7 +115,7 @@ class Trial:
         command = [sys.executable, '-m', 'amr_description.cli', 'check_urdf', '--json', *given]
         try:
             ended = subprocess.run(
-                [*command, str(file)],
+                [*command, str(file), *shlex.split(self._job.xacro_args)],
                 capture_output=True,
                 text=True,
                 errors='replace',
@@ -138,7 +144,13 @@ class Trial:
         self.found.has_drive = declared.is_any
         self._enter('spawn')
         begin = time.monotonic()
-        sim = Simulation(file.absolute(), given.told, activate=[])
+        sim = Simulation(
+            file.absolute(),
+            given.told,
+            activate=[],
+            xacro_args=self._job.xacro_args,
+            fixed=self._job.is_fixed,
+        )
         try:
             with sim:
                 self.found.spawn_seconds = time.monotonic() - begin

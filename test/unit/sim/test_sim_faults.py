@@ -250,6 +250,16 @@ PENDULUM = """<robot name="pendulum"><link name="world"/><link name="arm">
   <joint name="swing"><command_interface name="effort"/><state_interface name="position"/></joint>
   </ros2_control></robot>"""
 
+LEANING = """<robot name="arm"><link name="base">
+  <collision><origin xyz="0 0 .05"/><geometry><box size=".1 .1 .1"/></geometry></collision>
+  <inertial><origin xyz="0 0 .05"/><mass value="1"/>
+  <inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="arm"><inertial><origin xyz=".5 0 .1"/><mass value="2"/>
+  <inertia ixx=".05" iyy=".05" izz=".05" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="lift" type="revolute"><parent link="base"/><child link="arm"/>
+  <origin xyz="0 0 .1"/><axis xyz="0 1 0"/>
+  <limit lower="-.1" upper=".1" effort="9" velocity="1"/></joint></robot>"""
+
 BOX = """<robot name="box"><link name="box">
   <collision><geometry><box size=".2 .2 .2"/></geometry></collision>
   <inertial><mass value="1"/><inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/>
@@ -340,3 +350,14 @@ def test_robot_without_collision_falls_and_is_named_once(log):
     world.reset()
     world.step(500)
     assert log.text.count('below the ground') == 2
+
+
+def test_an_arm_that_is_not_bolted_down_is_named_once_with_what_would_do(log):
+    world = MujocoWorld('empty', log=log)
+    world.spawn('arm', LEANING)
+    world.spawn('box', BOX, Transform((1.0, 0.0, 0.3), (0.5, 0.0, 0.0, 0.75**0.5)))
+    for _ in range(400):
+        world.step(5)
+    (line,) = [text for _, text in log.lines if 'tipped' in text]
+    assert line.startswith("robot 'arm' has tipped over, by ")
+    assert 'none of its links is called world: fix it (fixed:=true)' in line

@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from amr_description.errors import UsageError
+from amr_description.testing.trial.command import given_to
 from amr_description.testing.trial.inputs import (
     descriptions,
     parameters_of,
@@ -83,7 +84,7 @@ def test_the_command_line_comes_first_then_the_file_of_the_same_name(tmp_path):
     mine, other, every = (write(tmp_path / f'{n}.yaml', MANAGER) for n in ('m', 'o', 'e'))
     given = (f'arm={mine}', f'leg={other}')
     assert find(tmp_path, ROBOT, given=given).files == (mine,)
-    assert find(tmp_path, ROBOT, given=(*given, str(every))).told == mine
+    assert find(tmp_path, ROBOT, given=(*given, str(every))).told == (mine,)
     assert find(tmp_path, ROBOT, 'cart', (*given, str(every))).files == (every,)
     beside = write(tmp_path / 'in' / 'arm.yaml', MANAGER)
     assert find(tmp_path, ROBOT).files == (beside,)
@@ -101,7 +102,7 @@ def test_else_the_one_file_of_a_package_that_the_description_speaks_of(prefix, t
     config = prefix / 'share' / 'makers_arm' / 'config'
     write(config / 'joystick.yaml', 'joy: {ros__parameters: {rate: 10}}\n')
     file = write(config / 'arm.yaml', MANAGER)
-    assert find(tmp_path, CONTROLLED).told == file
+    assert find(tmp_path, CONTROLLED).told == (file,)
     write(config / 'second.yaml', 'drive: {ros__parameters: {type: c/D}}\n')
     assert find(tmp_path, CONTROLLED).by == 'this program'
 
@@ -115,3 +116,16 @@ def test_else_parameters_are_made_for_the_joints_with_position_commands(tmp_path
     own = content['/**/trial_trajectory_controller']['ros__parameters']
     assert own['joints'] == ['elbow']
     assert find(tmp_path, ROBOT).files == ()
+
+
+def test_arguments_of_xacro_are_of_all_robots_or_of_one():
+    given = ['use_sim:=true name:=a', 'arm=dof:=7', 'cart=wheels:=4 hand:=x=y']
+    assert given_to('arm', given) == ['dof:=7']
+    assert given_to('cart', given) == ['wheels:=4 hand:=x=y']
+    assert given_to('other', given) == ['use_sim:=true name:=a']
+
+
+def test_a_robot_may_have_several_files(tmp_path):
+    files = [write(tmp_path / f'{name}.yaml', MANAGER) for name in 'ab']
+    found = find(tmp_path, CONTROLLED, given=[f'arm={file}' for file in files])
+    assert found.told == tuple(files)
