@@ -161,6 +161,34 @@ def declared_controllers(
     return sorted(found, key=lambda each: not each.is_broadcaster)
 
 
+def claimed_names(
+    robot: Robot, files: Sequence[Path] | None = None, namespace: str = ''
+) -> frozenset[str]:
+    """
+    Return what the controllers of parameter files may claim: joints, and others by their names.
+
+    Args:
+        robot: whose controllers they are.
+        files: None: those that the robot names, else the shipped one, if it is for this robot.
+        namespace: of the controller manager; empty: that of the robot.
+
+    Raises:
+        ParameterError: a file is no parameter file.
+    """
+    inside, manager = manager_of(robot)
+    found = declared_controllers(
+        files_of(robot) if files is None else files, namespace or inside, manager
+    )
+    values = [
+        value
+        for each in found
+        if not each.is_broadcaster
+        for given in each.parameters.values()
+        for value in (given if isinstance(given, list) else [given])
+    ]
+    return frozenset(value.partition('/')[0] for value in values if isinstance(value, str))
+
+
 def spawner_words(controllers: Sequence[DeclaredController]) -> list[str]:
     """Return the words of a ``spawner`` for controllers, with the files that some need."""
     if not any(each.file for each in controllers):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the plugins of one robot become: joints, sensors, the body; controllers; lines to say."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 import math
 import re
@@ -142,8 +142,20 @@ class GazeboTranslation:
 class Builder:
     """Collects what the plugins of one robot become."""
 
-    def __init__(self, robot: Robot, hardware: Sequence[HardwareInfo]) -> None:
+    def __init__(
+        self,
+        robot: Robot,
+        hardware: Sequence[HardwareInfo],
+        claimed: Callable[[], Collection[str]] = tuple,
+    ) -> None:
+        """``claimed``: returns the joints of ``hardware`` that controllers may claim."""
         self.robot = robot
+        self._claimed = claimed
+        self._offered = {
+            joint.name: {each.name for each in joint.command_interfaces}
+            for info in hardware
+            for joint in info.joints
+        }
         self.is_controlled = bool(hardware)
         self.controlled = {joint.name for info in hardware for joint in info.joints}
         self.sensors = {sensor.name for info in hardware for sensor in info.sensors}
@@ -161,11 +173,20 @@ class Builder:
         self._torques: dict[str, float] = {}
         self._rates = [float(LEAST_RATE)]
 
-    def can_drive(self, plugin: PluginElement, joints: Sequence[str]) -> bool:
-        """Return whether a plugin may command joints; note why it may not."""
+    def can_drive(
+        self, plugin: PluginElement, joints: Sequence[str], interface: str = 'velocity'
+    ) -> bool:
+        """
+        Return whether a plugin may command joints; note why it may not.
+
+        Those of ``<ros2_control>`` it may if that offers the interface, and no controller of the
+        parameter files claims them: in Gazebo both live side by side.
+        """
         movable = [each.name for each in self.robot.joints if each.has_position]
         lacking = [name for name in joints if name not in movable]
-        theirs = [name for name in joints if name in self.controlled | self._commands.keys()]
+        theirs = [
+            name for name in joints if name in self._commands or self._is_theirs(name, interface)
+        ]
         if lacking or not joints:
             plugin.note(
                 f'it cannot work: there is no joint {quote_all(lacking)} that moves; there are: '
@@ -177,6 +198,12 @@ class Builder:
             owner = '<ros2_control>' if theirs[0] in self.controlled else 'another plugin'
             plugin.note(f'it is left out: {owner} has the joints {quote_all(theirs)}')
         return not lacking and not theirs and bool(joints)
+
+    def _is_theirs(self, joint: str, interface: str) -> bool:
+        """Return whether a joint is left to ``<ros2_control>``."""
+        if joint not in self.controlled:
+            return False
+        return interface not in self._offered[joint] or joint in self._claimed()
 
     def command(
         self,
@@ -313,7 +340,9 @@ class Builder:
                 mimic=joint.mimic,
             )
             for joint in self.robot.joints
-            if joint.has_position and (joint.name in self._commands or not self.is_controlled)
+            if joint.has_position
+            and (joint.name in self._commands or not self.is_controlled)
+            and joint.name not in self.controlled  # it has the interfaces there
         )
         sensors = tuple(
             ComponentInfo(

@@ -201,7 +201,9 @@ def _can_steer(
     sizes: Mapping[str, float],
 ) -> bool:
     """Have the joints of a car commanded; return False, and note it, if they cannot be."""
-    if not builder.can_drive(plugin, traction + steering):
+    if not (
+        builder.can_drive(plugin, traction) and builder.can_drive(plugin, steering, 'position')
+    ):
         return False
     if not min(sizes.values()) > 0.0:
         plugin.note('it cannot work: distances and size of the wheels must be above 0')

@@ -19,6 +19,9 @@ from amr_description.model.gazebo_instruments import add_wrench
 from amr_description.model.gazebo_plugins import PluginElement
 from amr_description.text import quote, quote_all
 
+_NONE = ''
+"""An interface that ``<ros2_control>`` never offers: what has a joint there keeps it."""
+
 
 def _joint_states(builder: Builder, plugin: PluginElement) -> None:
     if builder.is_controlled:
@@ -64,7 +67,7 @@ def _joint_command(
     if plugin.flag('use_actuator_msg', default=False):
         plugin.note('it is left out: commands as actuator_msgs/msg/Actuators are not known here')
         return
-    if not builder.can_drive(plugin, joints):
+    if not builder.can_drive(plugin, joints, interface):
         return
     builder.command(joints, interface, initial=initial)
     index = '' if interface == 'velocity' else f'{plugin.text("joint_index", default="0")}/'
@@ -85,7 +88,7 @@ def _joint_trajectory(builder: Builder, plugin: PluginElement) -> None:
     """New Gazebo's: trajectories on a topic; here with an action too, as ros2_control has it."""
     movable = [each for each in builder.robot.joints if each.has_position and each.mimic is None]
     joints = plugin.texts('joint_name') or [each.name for each in movable]
-    if not builder.can_drive(plugin, joints):
+    if not builder.can_drive(plugin, joints, 'position'):
         return
     starts = plugin.numbers('initial_position')
     for index, joint in enumerate(joints):
@@ -116,7 +119,7 @@ def _transmissions(builder: Builder, plugin: PluginElement) -> None:
             if kind.lower() in ('position', 'velocity', 'effort'):
                 interfaces.append(kind.lower())
     joints = [name for name, interfaces in found.items() if interfaces]
-    if not joints or not builder.can_drive(plugin, joints):
+    if not joints or not builder.can_drive(plugin, joints, _NONE):
         return
     for name in joints:
         for interface in dict.fromkeys(found[name]):

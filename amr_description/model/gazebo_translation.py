@@ -27,9 +27,16 @@ with its ``<remapping>`` rules, new Gazebo's as they are usually bridged: ``<top
 leading ``/model/NAME``, else ``cmd_vel``, ``odom``, ``/tf`` and ``joint_states``. New Gazebo's
 frames are ``odom`` and the root link, where it would put the name of the model before them.
 
-What the ``<ros2_control>`` blocks have stays theirs: joints, and sensors by their names.
+What the ``<ros2_control>`` blocks have stays theirs: sensors by their names, and joints that a
+controller of the parameter files claims. A drive whose wheels nobody claims drives them.
 """
 
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+from amr_description.errors import AmrError
+from amr_description.model.controller_files import claimed_names
 from amr_description.model.gazebo_builder import Builder, GazeboTranslation
 from amr_description.model.gazebo_drives import DRIVES, FIRST
 from amr_description.model.gazebo_instruments import add_instrument
@@ -45,17 +52,34 @@ from amr_description.model.xml_reader import parse_xml
 _TRANSLATORS = {**DRIVES, **JOINTS}
 
 
-def translate(robot: Robot) -> GazeboTranslation:
+def translate(
+    robot: Robot, files: Sequence[Path] | None = None, namespace: str = ''
+) -> GazeboTranslation:
     """
     Return what stands for the plugins of a robot, which may be the robot alone.
 
-    Raises DescriptionError: a ``<ros2_control>`` or ``<gazebo>`` block is invalid.
+    Args:
+        robot: with its text.
+        files: the parameter files of its controllers; None: as
+            :func:`~amr_description.model.controller_files.claimed_names` finds them.
+        namespace: of its controller manager; empty: that of the robot.
+
+    Raises:
+        DescriptionError: a ``<ros2_control>`` or ``<gazebo>`` block is invalid.
     """
     report = raise_error_of(robot.text, strict=False)
     xml = parse_xml(robot.text, robot.source, report)
     if xml is None:
         return GazeboTranslation(robot)
-    builder = Builder(robot, read_hardware(xml, robot, report))
+
+    @cache
+    def claimed() -> frozenset[str]:
+        try:
+            return claimed_names(robot, files, namespace)
+        except AmrError:  # who reads the file, or the plugin, says so
+            return frozenset(joint.name for joint in robot.joints)
+
+    builder = Builder(robot, read_hardware(xml, robot, report), claimed)
     for plugin in sorted(plugins_of(xml, builder.notes), key=lambda each: each.kind not in FIRST):
         if plugin.kind in _TRANSLATORS:
             _TRANSLATORS[plugin.kind](builder, plugin)

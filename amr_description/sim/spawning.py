@@ -10,6 +10,7 @@ What is rejected raises a SpawnError with the ``result`` code of
 from collections.abc import Collection, Iterable, Iterator, Sequence
 import enum
 import math
+from pathlib import Path
 import re
 
 from amr_description.errors import DescriptionError, SpawnError
@@ -115,7 +116,13 @@ def checked_namespace(namespace: str) -> str:
     return absolute
 
 
-def read_description(text: str, source: str, log: Log = null_log, strict: bool = False) -> Robot:
+def read_description(
+    text: str,
+    source: str,
+    log: Log = null_log,
+    strict: bool = False,
+    files: Sequence[Path] | None = None,
+) -> Robot:
     """
     Read and check the URDF of a robot; plugins of Gazebo that move it become hardware.
 
@@ -124,6 +131,7 @@ def read_description(text: str, source: str, log: Log = null_log, strict: bool =
         source: What messages call the text, such as its path.
         log: Gets the checker's warnings.
         strict: Refuse also what a simulator can make something of.
+        files: The parameter files of its controllers; None: those that it names.
 
     Raises:
         SpawnError: The text is empty, has another format, or has an error by the checker.
@@ -143,7 +151,7 @@ def read_description(text: str, source: str, log: Log = null_log, strict: bool =
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
     for line in _lines(warnings, source):
         log(Severity.WARN, line)
-    return translate(robot).robot
+    return translate(robot, files).robot
 
 
 def _lines(warnings: Iterable[Finding], source: str) -> Iterator[str]:

@@ -233,8 +233,9 @@ class SimulationApi(ABC, Generic[RobotType]):
             self._description = self._given.text(lambda text: warnings.warn(text, stacklevel=7))
             # Before anything is started: what is wrong with it is told at once.
             self._robot_model = parse_urdf(self._description)
-            self._is_controlled = bool(hardware_of(translate(self._robot_model).robot))
             self._files = self._parameter_files()
+            translated = translate(self._robot_model, self._files).robot
+            self._is_controlled = bool(hardware_of(translated))
             self._bridge = bridge_of(str(self._parameters.get('bridge', '')))
             self._robots.clear()
             self._is_running = True

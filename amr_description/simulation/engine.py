@@ -10,6 +10,7 @@ controllers. All but the coroutine :meth:`SimulationEngine.spawn` is for the con
 
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from amr_description.clock import NANOSECONDS
@@ -26,6 +27,7 @@ from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.parameter_files import file_names
 from amr_description.plugin_errors import describe
 from amr_description.sim.engine import physics_stepping, steps_in
 from amr_description.sim.robot_view import RobotView
@@ -213,7 +215,13 @@ class SimulationEngine:
 
     def read(self, text: str, source: str) -> Robot:
         """Read the description of a robot, which messages call ``source``. Raises SpawnError."""
-        return read_description(text, source, self._log, strict=self.settings.strict)
+        strict = self.settings.strict
+        return read_description(text, source, self._log, strict, self._parameter_files)
+
+    @property
+    def _parameter_files(self) -> list[Path] | None:
+        """Those that it was given for all robots; None: each names its own."""
+        return [Path(each) for each in file_names(self.settings.controllers)] or None
 
     async def spawn(
         self,
@@ -243,7 +251,7 @@ class SimulationEngine:
         name = name or plain_name(robot.name)
         announce(name, cost_of(robot), self._log)
         namespace = checked_namespace(namespace or ros2_control_host_of(robot).namespace)
-        translation = bridged(translate(robot), self._bridge)
+        translation = bridged(translate(robot, self._parameter_files, namespace), self._bridge)
         prepared: PreparedType | None = None
         rollers: Mapping[str, Rollers] = {}
         if hardware := hardware_of(robot):

@@ -200,6 +200,6 @@ def spawn_controllers(
             manager,
             lambda controller, kind: topic(controller, subscribers, kind),
             lambda controller, kind: topic(controller, publishers, kind),
-            bridged(translate(description), bridge),
+            bridged(translate(description, files, inside), bridge),
             inside,
         )

@@ -139,7 +139,7 @@ class Simulation(SimulationApi[Robot]):
             lock_step,
             self._readings,
             name,
-            bridged(translate(self._robot_model), self._bridge).sensors,
+            bridged(translate(self._robot_model, self._files), self._bridge).sensors,
             namespace_of(self._robot_model, namespace),
         )
         return Robot(lock_step, self._readings, name, namespace, topics, sensors)

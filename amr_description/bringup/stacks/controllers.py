@@ -117,7 +117,7 @@ def _plan(
     from amr_description.model.ros2_control_tag import hardware_of
 
     given = given_files(controllers)
-    plugins = translate(robot)
+    plugins = translate(robot, given or None, inside)
     if bridge:
         plugins = bridged(plugins, read_bridge(path_of(bridge, 'bridge')))
     if not hardware_of(plugins.robot):

@@ -568,6 +568,37 @@ def test_what_ros2_control_has_stays_its_own():
     assert not info.joints and [each.name for each in info.sensors] == ['other']
 
 
+BESIDE = """<ros2_control name="own" type="system">
+  <hardware><plugin>amr_description/MujocoSystem</plugin></hardware>{}</ros2_control></robot>"""
+WHEELS = ''.join(
+    f'<joint name="{side}_joint"><command_interface name="velocity"/>'
+    '<state_interface name="position"/><state_interface name="velocity"/></joint>'
+    for side in ('left', 'right')
+)
+CLAIMING = """controller_manager: {ros__parameters: {own: {
+  type: diff_drive_controller/DiffDriveController}}}
+own: {ros__parameters: {left_wheel_names: [left_joint], right_wheel_names: [right_joint]}}
+"""
+
+
+def test_a_drive_beside_ros2_control_drives_wheels_that_no_controller_claims(tmp_path):
+    robot = parse(cart(classic_drive()).replace('</robot>', BESIDE.format(WHEELS)))
+    found = translate(robot)
+    assert [each.name for each in found.controllers] == ['drive']
+    assert not found.notes
+    assert not found.robot.plugin_hardware  # the wheels have what it takes already
+    file = tmp_path / 'claiming.yaml'
+    file.write_text(CLAIMING)
+    left_out = translate(robot, [file])
+    assert not left_out.controllers
+    (note,) = left_out.notes
+    assert note == (
+        'plugin "drive": it is left out: <ros2_control> has the joints "left_joint", "right_joint"'
+    )
+    file.write_text(CLAIMING.replace('[left_joint]', '[a]').replace('[right_joint]', '[b]'))
+    assert translate(robot, [file]).controllers
+
+
 def test_slip_of_wheels_is_told_with_what_follows():
     found = translated(plugin('libgz-sim-wheel-slip-system.so', 'gz::sim::systems::WheelSlip'))
     assert not found.not_simulated

@@ -3,6 +3,7 @@
 """What a simulation is given: arguments of xacro, a fixed root, several parameter files."""
 
 from fixtures.sim.arm import ARM
+from fixtures.sim.plugin_robot import cart, classic_drive
 import pytest
 
 from amr_description import Simulation
@@ -86,3 +87,17 @@ def test_the_launch_takes_several_files(files):
     assert plan.names == ('joint_state_broadcaster', 'arm')
     assert plan.declared[1].parameters['interface_name'] == 'position'
     assert plan.parameter == joined
+
+
+def test_a_drive_plugin_beside_ros2_control_moves_the_robot():
+    wheels = ''.join(
+        f'<joint name="{side}_joint"><command_interface name="velocity"/>'
+        '<state_interface name="position"/><state_interface name="velocity"/></joint>'
+        for side in ('left', 'right')
+    )
+    block = '<ros2_control name="own" type="system"><hardware><plugin>'
+    block += f'gz_ros2_control/GazeboSimSystem</plugin></hardware>{wheels}</ros2_control>'
+    with Simulation(cart(classic_drive()).replace('</robot>', f'{block}</robot>')) as sim:
+        sim.send('/cmd_vel', {'linear': {'x': 0.3}})
+        sim.run(3.0)
+        assert sim.truth.x == pytest.approx(0.9, rel=0.05)
