@@ -21,6 +21,7 @@ from amr_description.controllers.parameter_faults import (
     errors_of,
     manager_faults,
     type_fault,
+    type_here,
 )
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ControllerError, ParameterError
@@ -134,7 +135,8 @@ class ManagerParameters:
             _, fault = type_fault(name, entry.type, places[-1])
             node = f'{self.store.node.rpartition("/")[0]}/{name}'
             read = controller_parameters(found, node, entry.type, places[-1])
-            return [fault] if fault is not None else read.faults
+            is_taken = type_here(entry.type) != entry.type  # which is said where it is loaded
+            return [fault] if fault is not None and not is_taken else read.faults
 
         with self._explained(faults):
             yield

@@ -23,6 +23,7 @@ from amr_description.control.manager_parameters import ControllerEntry
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controllers import CONTROLLERS
+from amr_description.controllers.parameter_faults import taken_as, type_here
 from amr_description.errors import AmrError, ControllerError
 from amr_description.log import Log, Severity
 from amr_description.model.robot import Robot
@@ -294,8 +295,11 @@ class ManagerRequests:
             return self._make_of_type(name, entry)
 
     def _make_of_type(self, name: str, entry: ControllerEntry) -> ServedController:
+        here = type_here(entry.type)
+        if here != entry.type:
+            self.log(Severity.WARN, f"Controller '{name}': {taken_as(entry.type, here)}")
         try:
-            controller_class = CONTROLLERS.find(entry.type)
+            controller_class = CONTROLLERS.find(here)
         except ControllerError as error:
             raise ControllerError(
                 f"Loader for controller '{name}' (type '{entry.type}') not found. {error}"

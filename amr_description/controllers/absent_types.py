@@ -1,18 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Types of controllers that are public, and not here: what would do in their place."""
+"""Types of controllers that are public, and not here: what does, or would do, in their place."""
 
 _TRAJECTORIES = 'joint_trajectory_controller/JointTrajectoryController'
 _JOINTS = f'move the joints by {_TRAJECTORIES}'
-_SCALED = f'{_TRAJECTORIES} scales speed, too'
 _VENDOR = 'it needs the hardware of its vendor, and the simulated robot does without it'
 
 ABSENT: dict[str, str] = {
     'admittance_controller/AdmittanceController': (
         f'{_JOINTS}; ~/wrench of a force_torque_sensor_broadcaster tells the forces'
-    ),
-    'joint_state_controller/JointStateController': (
-        'joint_state_broadcaster/JointStateBroadcaster is its name since Galactic'
     ),
     'motion_primitives_controllers/MotionPrimitivesForwardController': _JOINTS,
     'motion_primitives_controllers/MotionPrimitivesFromTrajectoryController': _JOINTS,
@@ -29,12 +25,7 @@ ABSENT: dict[str, str] = {
     'cartesian_compliance_controller/CartesianComplianceController': _JOINTS,
     'cartesian_force_controller/CartesianForceController': _JOINTS,
     'cartesian_motion_controller/CartesianMotionController': _JOINTS,
-    'ur_controllers/ScaledJointTrajectoryController': _SCALED,
-    'ur_controllers/PassthroughTrajectoryController': f'{_TRAJECTORIES} does the same here',
     'ur_controllers/SpeedScalingStateBroadcaster': _VENDOR,
-    'ur_controllers/ForceTorqueStateBroadcaster': (
-        'force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster publishes the wrench'
-    ),
     'ur_controllers/GPIOController': 'gpio_controllers/GpioCommandController drives GPIOs',
     'ur_controllers/ForceModeController': _VENDOR,
     'ur_controllers/FreedriveModeController': _VENDOR,
@@ -43,3 +34,11 @@ ABSENT: dict[str, str] = {
     'robotiq_controllers/RobotiqActivationController': _VENDOR,
 }
 """Type → what would do."""
+
+CLASSES: dict[str, str] = {
+    'ForceTorqueStateBroadcaster': 'force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster',
+    'JointStateController': 'joint_state_broadcaster/JointStateBroadcaster',
+    'PassthroughTrajectoryController': _TRAJECTORIES,
+    'ScaledJointTrajectoryController': _TRAJECTORIES,
+}
+"""Class of a vendor, or of a former release → the type that does the same here."""

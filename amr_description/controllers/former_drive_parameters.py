@@ -68,6 +68,46 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, float | int) and not isinstance(value, bool) and value == value
 
 
+_SUM = 'kinematics.sum_of_robot_center_projection_on_X_Y_axis'
+
+
+def _renamed(name: str, new: str) -> FormerParameter:
+    """Return a parameter of another mecanum drive that has one of another name here."""
+
+    def read(value: Any, given: Mapping[str, Any]) -> Reading | None:
+        if new in given:
+            return None
+        values = {new: value}
+        if new == 'front_left_wheel_command_joint_name' and 'reference_timeout' not in given:
+            values['reference_timeout'] = given.get('cmd_vel_timeout', _FORKS_TIMEOUT)
+        return Reading(f'it is of {_FORKS}: taken as {" and ".join(values)}', values)
+
+    return FormerParameter(name, read)
+
+
+def _halves(name: str, other: str) -> FormerParameter:
+    """Return the first of two distances between wheels, of another mecanum drive."""
+
+    def read(value: Any, given: Mapping[str, Any]) -> Reading | None:
+        beside = given.get(other)
+        if _SUM in given or not (_is_number(value) and _is_number(beside)):
+            return None
+        return Reading(
+            f'it is of {_FORKS}: half of it and of {other} is taken as {_SUM}',
+            {_SUM: 0.5 * (value + beside)},
+        )
+
+    return FormerParameter(name, read)
+
+
+def _known(name: str) -> FormerParameter:
+    """Return one that another says what is made of it."""
+    return FormerParameter(name, lambda value, given: None)
+
+
+_FORKS = 'another mecanum drive controller'
+_FORKS_TIMEOUT = 0.5
+"""s: what they have for cmd_vel_timeout."""
 TF_PREFIX = (FormerParameter('tf_frame_prefix', _tilde),)
 STAMPED_ONLY = (FormerParameter('use_stamped_vel', _stamped_only),)
 SPEED_LIMITS = (
@@ -88,3 +128,22 @@ DIFF_DRIVE = (
         'right_wheel_radius_multiplier',
     ),
 )
+MECANUM = (
+    *TF_PREFIX,
+    *(
+        _renamed(name.format(row, side), f'{new}_{side}_wheel_command_joint_name')
+        for side in ('left', 'right')
+        for name, row, new in (
+            ('{}_{}_wheel_name', 'front', 'front'),
+            ('{}_{}_wheel_name', 'rear', 'rear'),
+            ('{}_{}_joint_name', 'front', 'front'),
+            ('{}_{}_joint_name', 'back', 'rear'),
+            ('{}_{}_joint_name', 'rear', 'rear'),
+        )
+    ),
+    _renamed('wheel_radius', 'kinematics.wheels_radius'),
+    _halves('wheel_separation_x', 'wheel_separation_y'),
+    _halves('wheel_base', 'wheel_separation'),
+    *map(_known, ('wheel_separation_y', 'wheel_separation', 'cmd_vel_timeout', 'use_stamped_vel')),
+)
+"""Of Husarion's and of the tutorials': other names of the same, on ~/cmd_vel there."""

@@ -64,7 +64,7 @@ class MecanumKinematicsParameters:
 class MecanumDriveParameters:
     """The table of mecanum_drive_controller/MecanumDriveController."""
 
-    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.TF_PREFIX
+    former: ClassVar[tuple[FormerParameter, ...]] = former_drive_parameters.MECANUM
     reference_timeout: float = parameter(
         0.0,
         'Age at which a command ends and the robot brakes; 0: after one update',

@@ -21,6 +21,7 @@ from amr_description.control.manager_parameters import (
     ManagerTable,
 )
 from amr_description.controllers import CONTROLLERS
+from amr_description.controllers.absent_types import CLASSES
 from amr_description.controllers.parameter_sections import (
     gives_type,
     listed_controllers,
@@ -123,7 +124,32 @@ def type_fault(name: str, kind: str, location: SourceLocation) -> tuple[str, Fin
         return meant, Finding.error(*location, text, fix=f'did you mean {quote(meant)}?')
     if _may_be_python(kind):
         return kind, None
+    here = type_here(kind)
+    if here != kind:
+        return here, Finding.warning(*location, f'{name}: {taken_as(kind, here)}')
     return kind, Finding.warning(*location, f'{name}: {CONTROLLERS.absence(kind)}')
+
+
+def type_here(kind: str) -> str:
+    """
+    Return the type of ours that stands for one of a vendor; itself where none does.
+
+    ``vendor/Class`` is taken by its class, if one of ours has it and no package of Python is
+    called ``vendor``.
+    """
+    package, _, name = kind.replace('::', '/').rpartition('/')
+    if kind in CONTROLLERS.names or not package or closest_type(kind) or _may_be_python(kind):
+        return kind
+    ours = [known for known in CONTROLLERS.names if known.rpartition('/')[2] == name]
+    return ours[0] if len(ours) == 1 else CLASSES.get(name, kind)
+
+
+def taken_as(kind: str, here: str) -> str:
+    """Return that a type of a vendor is taken as one of ours."""
+    return (
+        f'controller type {quote(kind)} is not here, and is taken as {quote(here)}: parameters '
+        'that this one has not have no effect'
+    )
 
 
 def _may_be_python(kind: str) -> bool:
@@ -194,6 +220,7 @@ def _faults_in_manager(section: LocatedSection, name: str) -> Iterator[Finding]:
 
 def _tables_of(kind: str) -> tuple[type, ...]:
     """Return the tables of a shipped controller; none for others."""
+    kind = type_here(kind)
     if kind not in CONTROLLERS.names:
         return ()
     return CONTROLLERS.find(kind).parameters_type, CommonParameters

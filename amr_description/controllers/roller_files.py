@@ -10,7 +10,7 @@ rollers, whether or not the description tells of them.
 from collections.abc import Iterator, Sequence
 import math
 
-from amr_description.controllers.parameter_faults import controller_parameters
+from amr_description.controllers.parameter_faults import controller_parameters, type_here
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ParameterError
 from amr_description.model.gazebo_builder import GazeboTranslation
@@ -41,10 +41,11 @@ def rollers_of_controllers(robot: Robot, paths: Sequence[str]) -> dict[str, Roll
         return {}
     rollers: dict[str, Rollers] = {}
     for each in listed_controllers(found):
-        if each.type in (MECANUM_DRIVE, OMNI_WHEEL_DRIVE):
-            read = controller_parameters(found, each.node, each.type, each.location)
+        kind = type_here(each.type)
+        if kind in (MECANUM_DRIVE, OMNI_WHEEL_DRIVE):
+            read = controller_parameters(found, each.node, kind, each.location)
             if read.is_sound:
-                rollers.update(_rollers(each.type, read.values))
+                rollers.update(_rollers(kind, read.values))
     return {joint: each for joint, each in rollers.items() if robot.has_joint(joint)}
 
 

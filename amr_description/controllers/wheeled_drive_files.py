@@ -17,6 +17,7 @@ from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.parameter_faults import (
     controller_parameters,
     ControllerParameters,
+    type_here,
 )
 from amr_description.controllers.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ControllerError, ParameterError
@@ -73,7 +74,7 @@ def wheeled_drive_findings(robot: Robot, paths: Sequence[str]) -> tuple[Finding,
     findings: list[Finding] = []
     for each in listed_controllers(found):
         try:
-            table = CONTROLLERS.find(each.type).parameters_type
+            table = CONTROLLERS.find(type_here(each.type)).parameters_type
         except ControllerError:
             continue
         check = _check_of(table)

@@ -6,9 +6,15 @@ import pytest
 from support.paths import ROOT
 
 from amr_description.controllers.drive_files import examine_drive_files
-from amr_description.controllers.parameter_faults import closest_type, manager_faults
+from amr_description.controllers.parameter_faults import (
+    closest_type,
+    manager_faults,
+    type_fault,
+    type_here,
+)
 from amr_description.controllers.parameter_sections import read_sections
 from amr_description.errors import ParameterError
+from amr_description.model.findings import Severity, SourceLocation
 
 GOOD = """\
 controller_manager:
@@ -321,6 +327,41 @@ def test_an_ordinary_file_in_a_namespace_is_told_what_to_write(tmp_path):
 )
 def test_types_of_others_are_not_corrected(kind):
     assert closest_type(kind) == ''
+
+
+@pytest.mark.parametrize(
+    ('kind', 'here'),
+    [
+        ('clearpath_mecanum_drive_controller/MecanumDriveController', 'mecanum_drive_controller'),
+        ('my_diff_drive_controller/DiffDriveController', 'diff_drive_controller'),
+        ('makers_arm::JointTrajectoryController', 'joint_trajectory_controller'),
+        ('ur_controllers/ScaledJointTrajectoryController', 'joint_trajectory_controller'),
+        ('ur_controllers/ForceTorqueStateBroadcaster', 'force_torque_sensor_broadcaster'),
+        ('joint_state_controller/JointStateController', 'joint_state_broadcaster'),
+    ],
+)
+def test_a_type_of_a_vendor_is_taken_by_its_class(kind, here):
+    assert type_here(kind).partition('/')[0] == here
+    found, fault = type_fault('arm', kind, SourceLocation('c.yaml', 3))
+    assert found == type_here(kind)
+    assert fault.severity is Severity.WARNING
+    assert f'"{kind}" is not here, and is taken as "{here}/' in fault.text
+
+
+@pytest.mark.parametrize(
+    'kind',
+    [
+        'diff_drive_controller/DiffDriveController',  # it is here
+        'diff_drive_controler/DiffDriveController',  # misspelt
+        'my_package.drive/DiffDriveController',  # of Python
+        'pytest/DiffDriveController',  # a package of Python
+        'makers/GripperActionController',  # three of ours have that class
+        'ur_controllers/ForceModeController',  # none of ours
+        'DiffDriveController',
+    ],
+)
+def test_other_types_are_not_taken_as_another(kind):
+    assert type_here(kind) == kind
 
 
 def test_a_file_that_was_edited_is_read_again(faults):
