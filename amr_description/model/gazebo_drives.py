@@ -482,6 +482,7 @@ DRIVES: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'gazebo-ros-ackermann-drive': _classic_ackermann,
     'gazebo-ros-diff-drive': _diff_drive,
     'gazebo-ros-skid-steer-drive': _diff_drive,
+    'gazebo-ros-force-based-move': _planar_move,
     'gazebo-ros-planar-move': _planar_move,
     'mecanum-drive': _mecanum,
     'velocity-control': _planar_move,

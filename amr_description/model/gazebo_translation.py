@@ -10,7 +10,7 @@ plugin, Gazebo Classic (ROS 2, ROS 1) or new controller
 diff drive, skid steer                       ``amr_description/GazeboDiffDrive``
 MecanumDrive                                 ``amr_description/GazeboMecanumDrive``
 AckermannSteering, Ackermann drive           ``amr_description/GazeboAckermannDrive``
-planar move, VelocityControl                 ``amr_description/GazeboPlanarMove``, on the base
+planar and force-based move, VelocityControl ``amr_description/GazeboPlanarMove``, on the base
 p3d, OdometryPublisher, odometry of a drive  ``amr_description/GazeboOdometryPublisher``: the truth
 that has the world as its source
 joint state publisher                        ``joint_state_broadcaster/JointStateBroadcaster``

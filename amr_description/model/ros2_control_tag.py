@@ -84,7 +84,10 @@ def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[Ha
     reader = ElementReader(robot.source, report)
     found: dict[str, HardwareInfo] = {}
     for element in xml.iterchildren('ros2_control'):
-        info = _read_block(element, robot, reader)
+        kind = _read_type(element, reader)
+        if kind is None:
+            continue
+        info = _read_block(element, kind, robot, reader)
         if info.name in found:
             reader.error(
                 element,
@@ -97,14 +100,15 @@ def read_hardware(xml: etree._Element, robot: Robot, report: Report) -> tuple[Ha
     return tuple(found.values())
 
 
-def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) -> HardwareInfo:
+def _read_block(
+    element: etree._Element, kind: HardwareType, robot: Robot, reader: ElementReader
+) -> HardwareInfo:
     name = element.get('name', '')
     reader = reader.of(f'ros2_control {quote(name)}')
     if not name:
         reader.error(element, '<ros2_control> has no attribute "name"')
     for child in _unknown_children(element, _CHILDREN):
         reader.error(child, **_invalid(child, _CHILDREN), taken=_LEFT_OUT)
-    kind = _read_type(element, reader)
     hardware = _read_hardware_element(element, reader)
     joints = tuple(_read_joints(element, robot, reader))
     _check_mimicked(element, joints, reader)
@@ -126,8 +130,10 @@ def _read_block(element: etree._Element, robot: Robot, reader: ElementReader) ->
     )
 
 
-def _read_type(element: etree._Element, reader: ElementReader) -> HardwareType:
+def _read_type(element: etree._Element, reader: ElementReader) -> HardwareType | None:
+    """Return the type of a block; None: of one that nobody knows, which ros2_control passes by."""
     text = element.get('type', '')
+    reader = reader.of(f'ros2_control {quote(element.get("name", ""))}')
     if text in set(HardwareType):
         return HardwareType(text)
     reader.error(
@@ -135,8 +141,9 @@ def _read_type(element: etree._Element, reader: ElementReader) -> HardwareType:
         'type of <ros2_control>',
         found=quote(text),
         expected=f'one of {", ".join(HardwareType)}',
+        taken='the block is passed by',
     )
-    return HardwareType.SYSTEM
+    return None
 
 
 def _read_hardware_element(

@@ -12,6 +12,7 @@ the XML before it reads it, and with them what a robot is taken as that is not q
 from lxml import etree
 
 from amr_description.log import Log
+from amr_description.model.checks.markup import ROBOT
 from amr_description.model.findings import raise_error
 from amr_description.model.mended_inertials import mended_inertials
 from amr_description.model.robot import Inertial, Joint, Robot
@@ -61,6 +62,7 @@ def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
     for link in root.iterfind('link'):
         for number, collision in enumerate(link.iterchildren('collision')):
             collision.set('name', f'{link.get("name")}{COLLISION}{number}')
+    _drop_repeated(root)
     for shape in (*root.iterfind('link/visual'), *root.iterfind('link/collision')):
         # The first counts, as in urdfdom; the checker has named the others.
         for geometry in shape.iterfind('geometry'):
@@ -74,6 +76,21 @@ def prepared_xml(robot: Robot, log: Log, *, strict: bool) -> tuple[str, Meshes]:
     _write_as_taken(root, robot)
     meshes = resolve_meshes(root, robot.source, log, strict=strict)
     return etree.tostring(root, encoding='unicode'), meshes
+
+
+def _drop_repeated(root: etree._Element) -> None:
+    """Remove what the checker says is ignored: a second element of which there is one."""
+    stack = [(root, ROBOT)]
+    while stack:
+        element, grammar = stack.pop()
+        seen: set[str] = set()
+        for child in tuple(element.iterchildren(etree.Element)):
+            known = grammar.children.get(child.tag)
+            if child.tag in seen and child.tag in grammar.single:
+                element.remove(child)
+            elif known is not None and not known.open:
+                stack.append((child, known))
+            seen.add(child.tag)
 
 
 def _child(parent: etree._Element, tag: str) -> etree._Element:

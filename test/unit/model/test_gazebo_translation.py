@@ -223,6 +223,13 @@ def test_the_hardware_has_all_joints():
     assert translate(robot).robot == robot
 
 
+def test_classics_force_based_move_is_planar_move():
+    one = plugin('libgazebo_ros_force_based_move.so', 'move', '<commandTopic>go</commandTopic>')
+    move = only(one)['move']
+    assert move.type == 'amr_description/GazeboPlanarMove'
+    assert move.topics['~/cmd_vel'] == 'go'
+
+
 def test_a_body_that_is_moved():
     found = translated(plugin('libgazebo_ros_planar_move.so', 'planar'))
     base = found.robot.plugin_hardware[-1]

@@ -261,6 +261,14 @@ def test_the_simulator_takes_what_real_hardware_cannot(inside, holds):
         hardware_of(robot, strict=True)
 
 
+def test_a_block_of_a_type_that_nobody_knows_is_passed_by():
+    robot = robot_of(block(PLUGIN, 'name="s" type="diffdrive_arduino/X"') + block(PLUGIN))
+    (info,) = hardware_of(robot, strict=False)
+    assert info.name == 's' and info.type == 'system'
+    with pytest.raises(DescriptionError, match='found "diffdrive_arduino/X"'):
+        hardware_of(robot, strict=True)
+
+
 def test_of_two_blocks_of_one_name_the_simulator_takes_the_first():
     (info,) = hardware_of(robot_of(block(PLUGIN) + block(PLUGIN.replace('p/P', 'q/Q'))))
     assert info.plugin == 'p/P'

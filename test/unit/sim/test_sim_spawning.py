@@ -315,3 +315,30 @@ def test_codes_are_those_of_simulation_interfaces():
         'INVALID_POSE',
     ]
     assert [int(code) for code in SpawnCode if code > 100] == list(range(101, 110))
+
+
+TWICE = """<robot name="box"><link name="base">
+<visual><geometry><box size=".2 .2 .2"/></geometry><material name="a"><color rgba="1 0 0 1"/>
+</material><material name="b"><color rgba="0 1 0 1"/></material></visual>
+<collision><geometry><box size=".2 .2 .2"/></geometry><geometry><sphere radius="1"/></geometry>
+</collision><inertial><mass value="1"/><mass value="2"/>{moments}{moments}</inertial>
+<inertial><mass value="5"/>{moments}</inertial></link>
+<link name="arm"><inertial><mass value="1"/>{moments}</inertial></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="arm"/>
+<origin xyz="0 0 .2"/><origin xyz="0 0 .4"/><axis xyz="0 0 1"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" effort="1" velocity="1"/><limit lower="-2" upper="2" effort="1"
+velocity="1"/><dynamics damping="1"/><dynamics damping="2"/></joint></robot>"""
+
+
+def test_what_the_checker_says_is_ignored_is_ignored():
+    """All that stands twice where one is enough: MuJoCo refuses most of it."""
+    moments = '<inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/>'
+    world = MujocoWorld('empty')
+    world.spawn('box', TWICE.format(moments=moments), Transform((0.0, 0.0, 0.1)))
+    model = world.engine.model
+    assert model.body('box/base').mass[0] == 1.0
+    assert model.joint('box/j').axis.tolist() == [0.0, 0.0, 1.0]
+    assert model.body('box/arm').pos.tolist() == [0.0, 0.0, 0.2]
+    assert model.joint('box/j').range.tolist() == [-1.0, 1.0]
+    world.step(100)
+    assert world.robot('box').pose('base').translation[2] == pytest.approx(0.1, abs=1e-3)
