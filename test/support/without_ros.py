@@ -34,6 +34,8 @@ TESTS = {
 }
 """Likewise tests, and what they need."""
 
+pytest_plugins = ['support.open_path']
+
 settings.register_profile('normal', settings.get_profile('ci'), max_examples=50)
 settings.load_profile('normal')
 
