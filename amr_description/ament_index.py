@@ -25,7 +25,7 @@ OWN_PACKAGE = 'amr_description'
 _OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
 _INDEX = 'share/ament_index/resource_index/packages'
 _NAME = re.compile(r'[a-zA-Z0-9][a-zA-Z0-9_-]+')  # REP 127, with what it exempts
-_SOURCE_TREE = Path(__file__).resolve().parents[1]
+_MODULES = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
 MODEL_VARIABLES = (
     'GZ_SIM_RESOURCE_PATH', 'IGN_GAZEBO_RESOURCE_PATH', 'GAZEBO_MODEL_PATH', 'SDF_PATH'
@@ -80,17 +80,30 @@ def package_share(package: str) -> Path:
     """
     Return the share folder of a package. Raises ResourceError.
 
-    This package is also found in a source tree that was not built.
+    This package is also found in a source tree that was not built, and where pip has put it.
     """
     try:
         return package_prefix(package) / 'share' / package
     except ResourceError as error:
-        if package == OWN_PACKAGE and (_SOURCE_TREE / 'config').is_dir():
-            return _SOURCE_TREE
+        if package == OWN_PACKAGE and (own := _share_of(_MODULES)) is not None:
+            return own
         raise ResourceError(
             f"package '{package}' is not found in {_VARIABLE}; build it and source its workspace "
             'first'
         ) from error
+
+
+def _share_of(modules: Path) -> Path | None:
+    """
+    Return the share folder of this package by the folder that has its modules, or None.
+
+    It is that folder in a source tree. Of an installation it is ``share/amr_description`` in one
+    of the folders above: ``<prefix>/lib/python3.13/site-packages``, ``<prefix>/Lib/site-packages``
+    on Windows, and others of users and of ``pip install --target``.
+    """
+    above = (each / 'share' / OWN_PACKAGE for each in (modules, *modules.parents[:3]))
+    folders = (each for each in (modules, *above) if (each / 'package.xml').is_file())
+    return next(folders, None)
 
 
 def own_prefix() -> Path | None:
@@ -102,7 +115,9 @@ def own_prefix() -> Path | None:
 def own_share() -> Path:
     """Return the share folder of this package itself. Raises ResourceError."""
     prefix = own_prefix()
-    return prefix / 'share' / OWN_PACKAGE if prefix else package_share(OWN_PACKAGE)
+    if prefix is not None:
+        return prefix / 'share' / OWN_PACKAGE
+    return _share_of(_MODULES) or package_share(OWN_PACKAGE)
 
 
 def overlay() -> Path | None:

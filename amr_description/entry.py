@@ -3,7 +3,7 @@
 """
 The entry point of every executable: Ctrl-C prints no traceback, even while libraries are imported.
 
-``setup.py`` names ``amr_description.entry:nodes.talker.main`` in place of
+``pyproject.toml`` names ``amr_description.entry:nodes.talker.main`` in place of
 ``amr_description.nodes.talker:main``. Importing rclpy or MuJoCo takes 0.1 s to 1 s, during which
 Ctrl-C would print a traceback. There is nothing to clean up yet, so the process just exits with
 code 130, as programs do on SIGINT. From its ``main`` on the program handles Ctrl-C itself; a
@@ -76,7 +76,8 @@ def run(
         signal.signal(signal.SIGINT, lambda *_: os._exit(interrupted))
     # The bring-up starts executables of this package with SIGINT blocked, so that a Ctrl-C stays
     # pending until here; earlier, Python itself would print a traceback.
-    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+    if sys.platform != 'win32':
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     main = _imported(find)
     try:
         if handles_sigint:
@@ -126,6 +127,7 @@ def use_one_blas_thread() -> None:
 
 _package = LazyEntryPoint(__package__)
 bringup, nodes, testing = _package.bringup, _package.nodes, _package.testing
+simulation = _package.simulation
 OWN_NODES: str = nodes.path
 """The package whose modules are the nodes, named as their executables."""
 xacro = LazyEntryPoint('xacro')

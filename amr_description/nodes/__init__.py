@@ -4,7 +4,7 @@
 The executables, and nothing else: ``ros2 run amr_description NAME`` runs ``nodes/NAME``.
 
 Each is one module, or one folder with its parts, and has ``main(args: list[str] | None = None) ->
-int``. ``setup.py`` makes a ``console_scripts`` entry of it (``entry:nodes.NAME.main``), which
+int``. ``pyproject.toml`` has an entry of it (``entry:nodes.NAME.main``), which
 calls ``sys.exit(main())``. What several executables need is in :mod:`amr_description.ros`. Start
 reading at ``talker``, then ``ros/runtime.py``.
 """

@@ -29,6 +29,7 @@ TOOLING = (
     'interfaces',
     '.ci',
     '.github',
+    'pyproject.toml',
     'setup.py',
     'setup.cfg',
     'package.xml',

@@ -1,10 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-``scripts/test engine [ARGUMENTS OF PYTEST]``: the simulation without ROS, in its own environment.
+The simulation without ROS, in its own environment: ``scripts/test engine [--lowest] [ARGUMENTS]``.
 
-It has the packages of scripts/engine.lock and engine-tests.lock, and none of ROS. Its Python is
-that of ``AMR_PYTHON``, else the first of VERSIONS that is here, else this one; 3.12 is ROS's.
+It has the packages of scripts/engine.lock and engine-tests.lock, and none of ROS; by ``--lowest``
+those of pyproject.toml at their lower bounds. Its Python is that of ``AMR_PYTHON``, else the first
+of VERSIONS that is here, else this one; 3.12 is ROS's. Other arguments are pytest's.
 Any system will do: ``python scripts/environment/engine.py``.
 """
 
@@ -17,7 +18,9 @@ import subprocess
 import sys
 
 ROOT = Path(__file__).resolve().parents[2]
-LOCKS = (ROOT / 'scripts' / 'engine.lock', ROOT / 'scripts' / 'engine-tests.lock')
+TESTS = ROOT / 'scripts' / 'engine-tests.lock'
+LOCKS = (ROOT / 'scripts' / 'engine.lock', TESTS)
+LOWEST = '--lowest'
 VERSIONS = ('3.11', '3.14', '3.13')
 """Of Pythons that are looked for, the first one counts: the oldest, which lacks most."""
 FOLDERS = (
@@ -25,6 +28,8 @@ FOLDERS = (
     'simulation', 'navigation', 'bag',
 )  # fmt: skip
 """Of test/unit/: what the simulation is made of. Exceptions: test/support/without_ros.py."""
+NOT_OF_THE_ENGINE = ('ros', 'test')
+"""Extras of pyproject.toml."""
 _OF_ROS = ('AMENT_PREFIX_PATH', 'PYTHONPATH', 'ROS_DISTRO', 'LD_LIBRARY_PATH')
 
 
@@ -43,12 +48,32 @@ def find_python(environment: Mapping[str, str]) -> str:
     return sys.executable
 
 
-def prepared(python: str) -> Path:
-    """Return the Python of an environment with the packages of the locks, which is made once."""
+def lower_bounds() -> list[str]:
+    """Return all that pyproject.toml names for the simulation, at its lower bounds."""
+    import tomllib  # the Python of Ubuntu 22.04, which may run this, has none
+
+    project = tomllib.loads((ROOT / 'pyproject.toml').read_text(encoding='utf-8'))['project']
+    extras = project['optional-dependencies'].items()
+    further = (each for name, some in extras if name not in NOT_OF_THE_ENGINE for each in some)
+    return [each.replace('>=', '==') for each in (*project['dependencies'], *further)]
+
+
+def prepared(python: str, *, lowest: bool = False) -> Path:
+    """
+    Return the Python of an environment with the packages of the locks, which is made once.
+
+    ``lowest``: With those of :func:`lower_bounds` instead, and what they require.
+    """
+    tests = [f'-r{TESTS}']
+    if lowest:
+        packages = [*lower_bounds(), *tests]
+    else:
+        packages = ['--no-deps', *(f'-r{path}' for path in LOCKS)]
     about = subprocess.check_output(
         [python, '-c', 'import sys; print(*sys.version_info[:3], sep=".")'], text=True
     ).strip()
-    key = hashlib.sha256(b''.join(path.read_bytes() for path in LOCKS)).hexdigest()[:12]
+    contents = [path.read_bytes() for path in LOCKS] + [each.encode() for each in packages]
+    key = hashlib.sha256(b''.join(contents)).hexdigest()[:12]
     folder = ROOT / 'build' / 'engine' / f'{about}-{key}'
     own = folder / ('Scripts/python.exe' if os.name == 'nt' else 'bin/python')
     if (folder / 'complete').exists():
@@ -60,9 +85,9 @@ def prepared(python: str) -> Path:
     subprocess.check_call([python, '-m', 'venv', *options, str(folder)])
     own_pip, ours = [str(own), '-m', 'pip'], [sys.executable, '-m', 'pip', '--python', str(own)]
     pip = own_pip if has_pip else ours
-    install = [*pip, 'install', '--quiet', '--no-deps', '--only-binary=:all:']
+    install = [*pip, 'install', '--quiet', '--only-binary=:all:']
     install += ['--no-input', '--disable-pip-version-check']
-    subprocess.check_call([*install, *(f'-r{path}' for path in LOCKS)])
+    subprocess.check_call([*install, *packages])
     (folder / 'complete').touch()
     return own
 
@@ -75,9 +100,11 @@ def environment_of(environment: Mapping[str, str]) -> dict[str, str]:
 
 def main(arguments: Sequence[str]) -> int:
     """Run the tests; return the exit code."""
-    python = prepared(find_python(os.environ))
+    lowest = LOWEST in arguments
+    arguments = [each for each in arguments if each != LOWEST]
+    python = prepared(find_python(os.environ), lowest=lowest)
     options = ['--noconftest', '-p', 'support.without_ros', '-p', 'no:cacheprovider']
-    tests = list(arguments) or ['-q', *(f'test/unit/{folder}' for folder in FOLDERS)]
+    tests = arguments or ['-q', *(f'test/unit/{folder}' for folder in FOLDERS)]
     return subprocess.call(
         [str(python), '-m', 'pytest', *options, *tests], env=environment_of(os.environ), cwd=ROOT
     )

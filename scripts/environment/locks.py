@@ -42,11 +42,15 @@ class Pin(NamedTuple):
         match = re.search(r'(<|>=) *"3\.(\d+)"', self.marker)
         return not match or (python < (3, int(match[2]))) == (match[1] == '<')
 
+    def requirement(self) -> str:
+        """Return it without its hashes."""
+        marker = f' ; {self.marker}' if self.marker else ''
+        return f'{self.name}=={self.version}{marker}'
+
     def text(self) -> str:
         """Return it as it stands in the file."""
-        marker = f' ; {self.marker}' if self.marker else ''
         hashes = (f'    --hash={each}' for each in self.hashes)
-        return ' \\\n'.join([f'{self.name}=={self.version}{marker}', *hashes])
+        return ' \\\n'.join([self.requirement(), *hashes])
 
 
 def parse(text: str, name: str = 'requirements.lock') -> Iterator[Pin | str]:

@@ -3,8 +3,8 @@
 """
 ``colcon build --symlink-install`` of the checkout, which is a workspace and its only package.
 
-Edits of modules and data files need no build: all is linked. What does: another setup.py,
-setup.cfg or package.xml, and a data file that comes or goes, as these are globbed by the build.
+Edits of modules and data files need no build: all is linked. What does: another pyproject.toml,
+setup.py, setup.cfg or package.xml, and a data file that comes or goes, as the build globs these.
 """
 
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from .checkout import Checkout, PACKAGE
 from .commands import run
 from .virtual_environment import python_of, site_packages
 
-MANIFESTS = ('setup.py', 'setup.cfg', 'package.xml')
+MANIFESTS = ('pyproject.toml', 'setup.py', 'setup.cfg', 'package.xml')
 DATA_FOLDERS = ('urdf', 'config')
 LONGEST_FIRST_LINE = 127  # bytes, of Linux before 5.1
 

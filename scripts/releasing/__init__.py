@@ -8,8 +8,8 @@ What ``scripts/release`` makes of this checkout: two wheels, a lock with hashes,
 :mod:`.versions`        which version it is, the same everywhere; its section of the changelog
 :mod:`.sources`         what git knows of the checkout, and a copy of it to build in
 :mod:`.archives`        wheels, read and written so that the same contents are the same bytes
-:mod:`.package_wheel`   this package as a wheel
-:mod:`.prefix_files`    what that wheel brings beside modules: commands, executables, hooks
+:mod:`.package_wheel`   this package as two wheels: without ROS, and what makes it one
+:mod:`.prefix_files`    what the second brings: commands, executables, hooks
 :mod:`.binaries`        which glibc and libstdc++ the compiled interfaces need
 :mod:`.locks`           the packages of PyPI, each with the hash of its file
 :mod:`.sbom`            the bill of materials, in CycloneDX

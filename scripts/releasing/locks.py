@@ -28,6 +28,8 @@ DEVELOPMENT = (
     'sortedcontainers',
 )
 """What only the tests and the code of this project need."""
+OF_ROS = ('argcomplete', 'empy')
+"""What the command ``ros2`` and ROS itself need in just this version, beside their own wheels."""
 _HEAD = """\
 # amr_description {version} and all that it needs, for CPython {pythons} on x86-64 Linux with
 # glibc 2.28 or later.
@@ -54,6 +56,12 @@ def released_pins(lock: str) -> list[Pin]:
             'DEVELOPMENT in scripts/releasing/locks.py, or WITHOUT_WHEEL in scripts/environment/'
         )
     return [pin for pin in pins if pin.name not in DEVELOPMENT]
+
+
+def pins_of_ros(lock: str) -> list[Pin]:
+    """Return what runs ROS, without what builds workspaces. Raises ReleaseError."""
+    pins = released_pins(lock)
+    return [pin for pin in pins if pin.name.startswith('ros-') or pin.name in OF_ROS]
 
 
 def wheels_from_sources(

@@ -93,7 +93,7 @@ def release(
         fresh = Path(scratch, 'dist')
         fresh.mkdir()
         say('building the wheels ...')
-        own = [package_wheel.build(root, checkout.venv, fresh, epoch, environment)]
+        own = package_wheel.build(root, checkout.venv, fresh, epoch, environment)
         built = [_built(checkout, environment)]
         built += [_built_by(python, checkout, environment) for python in options.python]
         interfaces = [_interfaces(each, checkout.venv, fresh, epoch) for each in built]

@@ -1,14 +1,16 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-This package as a wheel: what colcon installs, and what an environment needs to be a ROS prefix.
+This package as two wheels: the simulation without ROS for any system, and what makes it a ROS.
 
-setuptools makes a wheel of the modules and of ``share/``. The executables it would put on the
-PATH, all thirty; here they go where ``ros2 run`` looks, as with colcon.
+The first is what setuptools makes of the checkout: modules, ``share/`` and the command ``amr``.
+The second is the extra ``ros`` of the first: commands, executables where ``ros2 run`` looks,
+hooks, and modules under their names in ROS. Who wants no ROS has none of these names.
 """
 
 from collections.abc import Mapping
 import configparser
+import email
 import os
 from pathlib import Path
 import tempfile
@@ -16,17 +18,32 @@ import tempfile
 from environment.commands import run
 from environment.virtual_environment import python_of
 
-from releasing import archives, prefix_files, sources
+from releasing import archives, locks, prefix_files, sources
 from releasing.archives import Member
 
-_SCRIPTS = 'console_scripts'
+_EXECUTABLES = 'amr_description.executables'
+_METADATA = """\
+Metadata-Version: 2.1
+Name: amr-description-ros
+Version: {version}
+Summary: What makes a virtual environment with amr-description an installation of ROS 2 Jazzy
+License: Apache-2.0
+Requires-Python: {pythons}
+{requires}
+"""
+_WHEEL = """\
+Wheel-Version: 1.0
+Generator: amr_description
+Root-Is-Purelib: true
+Tag: py3-none-any
+"""
 
 
 def build(
     root: Path, venv: Path, folder: Path, epoch: int, environment: Mapping[str, str]
-) -> Path:
+) -> list[Path]:
     """
-    Make the wheel from the files that git knows; return its path.
+    Make both wheels from the files that git knows; return their paths.
 
     Args:
         root: the checkout.
@@ -42,32 +59,47 @@ def build(
         command += ['--no-build-isolation', '--wheel-dir', scratch, os.fspath(copy)]
         run(command, environment, 'building the wheel of this package')
         (wheel,) = Path(scratch).glob('*.whl')
-        return archives.write(completed(archives.read(wheel)), folder, epoch)
+        members = archives.read(wheel)
+        lock = (root / 'scripts' / 'requirements.lock').read_text(encoding='utf-8')
+        return [archives.write(each, folder, epoch) for each in (members, of_ros(members, lock))]
 
 
-def completed(members: Mapping[str, Member]) -> dict[str, Member]:
-    """Return the files of a wheel of setuptools with what makes it a ROS prefix."""
-    info = archives.dist_info(members)
-    data = f'{info.removesuffix(".dist-info")}.data'
-    entry_points = _parsed(members[f'{info}/entry_points.txt'].content.decode())
-    scripts = [f'{name} = {path}' for name, path in entry_points[_SCRIPTS].items()]
-    entry_points.remove_section(_SCRIPTS)
-    entry_points.read_string(prefix_files.plugins())
-    whole = {
-        **members,
-        f'{info}/entry_points.txt': Member(_written(entry_points).encode()),
-    }
+def of_ros(package: Mapping[str, Member], lock: str) -> dict[str, Member]:
+    """
+    Return the files of the wheel that makes an environment with the other one a ROS prefix.
+
+    Args:
+        package: The files of the other one.
+        lock: The text of requirements.lock, for the versions of what it requires.
+    """
+    own = archives.dist_info(package)
+    metadata = email.message_from_bytes(package[f'{own}/METADATA'].content)
+    version = metadata['Version']
+    entry_points = _parsed(package[f'{own}/entry_points.txt'].content.decode())
+    executables = [f'{name} = {path}' for name, path in entry_points[_EXECUTABLES].items()]
+    required = [f'{name}=={version}' for name in ('amr-description', 'amr-description-interfaces')]
+    required += [pin.requirement() for pin in locks.pins_of_ros(lock)]
+    about = _METADATA.format(
+        version=version,
+        pythons=metadata['Requires-Python'],
+        requires='\n'.join(f'Requires-Dist: {each}' for each in required),
+    )
+    info = f'amr_description_ros-{version}'
+    data = f'{info}.data'
+    whole: dict[str, Member] = {}
     for folder, texts, executable in (
+        (f'{info}.dist-info', {'METADATA': about, 'WHEEL': _WHEEL}, False),
+        (f'{info}.dist-info', {'entry_points.txt': prefix_files.plugins()}, False),
         (f'{data}/scripts', prefix_files.commands(), True),
-        (f'{data}/data/lib/{prefix_files.PACKAGE}', prefix_files.executables(scripts), True),
+        (f'{data}/data/lib/{prefix_files.PACKAGE}', prefix_files.executables(executables), True),
         (f'{data}/data', prefix_files.tools(), True),
         (f'{data}/data', prefix_files.hooks() | prefix_files.cmake_packages(), False),
         ('', prefix_files.modules(), False),
     ):
         for name, text in texts.items():
             path = f'{folder}/{name}' if folder else name
-            if path in whole:
-                raise ValueError(f'{path} is twice in the wheel')
+            if path in whole or path in package:
+                raise ValueError(f'{path} is twice in the wheels')
             whole[path] = Member(text.encode(), executable)
     return whole
 
@@ -77,11 +109,3 @@ def _parsed(text: str) -> configparser.ConfigParser:
     parser.optionxform = str  # type: ignore[assignment,method-assign]  # names keep their case
     parser.read_string(text)
     return parser
-
-
-def _written(parser: configparser.ConfigParser) -> str:
-    blocks = [
-        '\n'.join([f'[{name}]', *(f'{key} = {value}' for key, value in parser[name].items()), ''])
-        for name in parser.sections()
-    ]
-    return '\n'.join(blocks)

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What the wheel brings beside its modules, so that a virtual environment is a ROS prefix.
+What a virtual environment needs beside the modules of this package, so that it is a ROS prefix.
 
 ``scripts/setup`` writes such files for a checkout (``scripts/environment/launchers.py``, which has
 the why). There they name the folders of the checkout; a wheel does not know where it will be
@@ -161,15 +161,15 @@ def tools() -> dict[str, str]:
     return {str(launchers.COLCONS_CMAKE): f'{first}\n{root}{rest}'}
 
 
-def executables(console_scripts: Iterable[str]) -> dict[str, str]:
+def executables(entry_points: Iterable[str]) -> dict[str, str]:
     """
     Return the text of each executable, by its name in ``lib/amr_description/``.
 
     Args:
-        console_scripts: entry points, ``talker = amr_description.entry:nodes.talker.main``.
+        entry_points: ``talker = amr_description.entry:nodes.talker.main``.
     """
     found = {}
-    for line in console_scripts:
+    for line in entry_points:
         script, _, entry_point = (part.strip() for part in line.partition('='))
         module, _, path = entry_point.partition(':')
         name, dot, attributes = path.partition('.')

@@ -12,8 +12,8 @@ from releasing import ReleaseError
 
 CHANGELOG = 'CHANGELOG.md'
 _ELSEWHERE = {
-    'setup.py': r"""^ +version='([^']+)'""",
-    'interfaces/pyproject.toml': r"""^version *= *"([^"]+)\"""",
+    'pyproject.toml': r'^version *= *"([^"]+)"',
+    'interfaces/pyproject.toml': r'^version *= *"([^"]+)"',
 }
 _HEADING = re.compile(r'^## (?P<version>\S+)(?: \((?P<date>[^)]*)\))? *$', re.MULTILINE)
 

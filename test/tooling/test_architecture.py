@@ -20,7 +20,7 @@ import sys
 import tokenize
 
 import pytest
-from support.paths import ROOT
+from support.paths import PROJECT, ROOT
 
 PACKAGE = ROOT / 'amr_description'
 HEADER = ['# Copyright 2026 The amr_description authors', '# SPDX-License-Identifier: Apache-2.0']
@@ -51,6 +51,7 @@ BASE = {
 # room -> rooms it may import; every room may import the base.
 ARROWS = {
     'amr_description': {'simulation'},  # what users import from it, when they do
+    '__main__': set(),
     'base': set(),
     'model': set(),
     'control': {'model'},
@@ -405,9 +406,9 @@ def test_only_the_simulator_loads_the_physics():
     assert loads(executables, physics) == []
 
 
-def test_the_simulation_without_ros_needs_none():
-    """Nothing that it imports, now or later, or names as a plugin, by whatever way."""
-    of_ros = re.compile(r'(rclpy|rpyutils|ament_\w+|rosidl_\w+|\w+_(msgs|interfaces|srvs))\b')
+@cache
+def needed_by_the_simulation() -> set[str]:
+    """Return all that it imports, now or later, or names as a plugin, by whatever way."""
     arrows: dict[str, set[str]] = {}
     for module, _, _, name in own_imports():
         arrows.setdefault(module, set()).update(with_parents(name))
@@ -417,6 +418,12 @@ def test_the_simulation_without_ros_needs_none():
         found = arrows.get(waiting.pop(), set()) - needed
         needed |= found
         waiting += found
+    return needed
+
+
+def test_the_simulation_without_ros_needs_none():
+    of_ros = re.compile(r'(rclpy|rpyutils|ament_\w+|rosidl_\w+|\w+_(msgs|interfaces|srvs))\b')
+    needed = needed_by_the_simulation()
     assert 'amr_description.hardware.mujoco_system' in needed
     rooms = {room_of(module) for module in needed}
     assert rooms & (ROS | {'bringup', 'launch_api', 'workspace'}) == set()
@@ -426,6 +433,30 @@ def test_the_simulation_without_ros_needs_none():
         if module in needed and of_ros.match(name)
     ]
     assert wrong == []
+
+
+def test_what_the_simulation_without_ros_imports_is_declared():
+    """In pyproject.toml, so that pip installs it: for all, or as an extra for what few need."""
+    files = {SOURCES[module] for module in needed_by_the_simulation()}
+    named = [name for module, _, _, name in imports() if module in needed_by_the_simulation()]
+    named += (name for path in files for name in imported_by_name(tree_of(path)))
+    found = {name.split('.')[0] for name in named}
+    found -= {*sys.stdlib_module_names, 'amr_description'}
+    assert {'mujoco', 'yaml', 'PIL', 'matplotlib'} <= found
+    extras = {**PROJECT['optional-dependencies']}
+    assert extras.pop('ros') and extras.pop('test')
+    declared = [*PROJECT['dependencies'], *(each for some in extras.values() for each in some)]
+    names = {re.match(r'[\w-]+', each)[0].lower() for each in declared}
+    called = {'yaml': 'pyyaml', 'serial': 'pyserial', 'PIL': 'pillow'}
+    assert {called.get(name, name) for name in found} == names - {'pycollada'}  # trimesh's
+
+
+def imported_by_name(tree: ast.Module) -> Iterator[str]:
+    """Yield what ``importlib.import_module('name')`` imports."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.Call(ast.Attribute(attr='import_module'), [ast.Constant(str(name))]):
+                yield name
 
 
 def test_the_simulator_loads_what_sensors_measure_with_only_for_them():

@@ -46,7 +46,7 @@ CHANGELOG = """# Changelog
 - Old.
 """
 LIBRARY = 'libtf2_msgs__rosidl_typesupport_fastrtps_c.so'
-DECLARED = {'package.xml': '0.2.0', 'setup.py': '0.2.0', 'interfaces/pyproject.toml': '0.2.0'}
+DECLARED = dict.fromkeys(('package.xml', 'pyproject.toml', 'interfaces/pyproject.toml'), '0.2.0')
 WHEEL = b'Wheel-Version: 1.0\nRoot-Is-Purelib: false\nTag: cp312-cp312-linux_x86_64\n\n'
 NEEDS = """
 a.so:     file format elf64-x86-64
@@ -77,7 +77,11 @@ def test_every_file_names_the_same_version():
 @pytest.mark.parametrize(
     ('changes', 'asked', 'fault'),
     [
-        ({'setup.py': '0.1.0'}, None, 'different versions: 0.2.0 in package.xml, 0.1.0 in setup'),
+        (
+            {'pyproject.toml': '0.1.0'},
+            None,
+            'different versions: 0.2.0 in package.xml, 0.1.0',
+        ),
         ({}, '0.3.0', 'asked for 0.3.0, found 0.2.0 in package.xml'),
         (dict.fromkeys(DECLARED, '0.2'), '0.2', '0.2 is no version MAJOR.MINOR.PATCH'),
     ],
@@ -127,7 +131,7 @@ def checkout(tmp_path):
     root = tmp_path / 'repository'
     files = {
         'package.xml': '<package><version>0.2.0</version></package>',
-        'setup.py': "setup(\n    version='0.2.0',\n)\n",
+        'pyproject.toml': '[project]\nversion = "0.2.0"\n',
         'interfaces/pyproject.toml': '[project]\nversion = "0.2.0"\n',
         'CHANGELOG.md': CHANGELOG,
         'README.md': '# x\n',
@@ -170,8 +174,8 @@ def test_what_is_checked_before_anything_is_built(checkout):
     git('tag', '-d', 'v0.2.0')
     (root / 'README.md').write_text('0.2.0 is not released yet')
     refused('take that away')
-    (root / 'setup.py').write_text('setup()')
-    with pytest.raises(ReleaseError, match=r'setup.py names no version'):
+    (root / 'pyproject.toml').write_text('[project]')
+    with pytest.raises(ReleaseError, match=r'^pyproject.toml names no version'):
         main.checked(root, options)
 
 

@@ -1,13 +1,14 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The wheel of this package: nothing that colcon installs is missing, and it works where it lies.
+The wheels of this package: nothing that colcon installs is missing, and they work where they lie.
 
 Unpacked as pip does over links to the packages of ``.venv``, which costs a second; installed by
 pip in an environment of its own: test/system/docs/test_docs_pip.py.
 """
 
 from configparser import ConfigParser
+import email
 import os
 from pathlib import Path
 import subprocess
@@ -16,9 +17,10 @@ import sysconfig
 
 from ament_index_python.packages import get_package_prefix
 from environment import launchers
+from environment.locks import pinned_versions
 import pytest
 from releasing import archives, package_wheel
-from support.paths import ROOT
+from support.paths import PROJECT, ROOT
 from support.running_programs import Program
 
 NAME = 'amr_description'
@@ -35,17 +37,23 @@ OF_COLCON = (
 
 
 @pytest.fixture(scope='module')
-def wheel(tmp_path_factory):
-    """The path of the wheel."""
+def wheels(tmp_path_factory):
+    """The files of the wheels without ROS and of ROS, by their paths in them."""
     folder = tmp_path_factory.mktemp('release')
-    return package_wheel.build(ROOT, ROOT / '.venv', folder, 1700000000, os.environ)
+    built = package_wheel.build(ROOT, ROOT / '.venv', folder, 1700000000, os.environ)
+    assert [path.name.partition('-')[0] for path in built] == [NAME, f'{NAME}_ros']
+    return [archives.read(path) for path in built]
 
 
 @pytest.fixture(scope='module')
-def members(wheel):
-    """Its files by their paths once it is installed."""
-    found = archives.read(wheel)
-    base = archives.dist_info(found).removesuffix('.dist-info')
+def members(wheels):
+    """Their files by their paths once they are installed."""
+    return {name: member for each in wheels for name, member in installed(each).items()}
+
+
+def installed(wheel):
+    """The files of a wheel by their paths once it is installed."""
+    base = archives.dist_info(wheel).removesuffix('.dist-info')
     places = {f'{base}.data/data/': '', f'{base}.data/scripts/': 'bin/'}
 
     def place(name):
@@ -54,7 +62,44 @@ def members(wheel):
                 return folder + name.removeprefix(beginning)
         return f'{SITE}/{name}'
 
-    return {place(name): member for name, member in found.items()}
+    return {place(name): member for name, member in wheel.items()}
+
+
+def entry_points_of(wheel):
+    parser = ConfigParser(delimiters=('=',))
+    text = wheel[f'{archives.dist_info(wheel)}/entry_points.txt'].content.decode()
+    parser.read_string(text)
+    return parser
+
+
+def test_without_ros_nothing_of_it_is_there(wheels):
+    """Neither its commands, nor modules under its names, nor what pytest and colcon load."""
+    own, _ = wheels
+    tops = {name.split('/')[0] for name in installed(own)}
+    assert tops == {'lib', 'share'}  # of the environment; amr is made by who installs
+    modules = {name.split('/')[0] for name in own if not name.startswith(f'{NAME}-')}
+    assert modules == {NAME}
+    entry_points = entry_points_of(own)
+    assert entry_points.sections() == ['amr_description.executables', 'console_scripts']
+    assert dict(entry_points['console_scripts']) == dict(PROJECT['scripts']) != {}
+
+
+def test_the_one_of_ros_requires_what_is_locked(wheels):
+    own, of_ros = (
+        email.message_from_bytes(each[f'{archives.dist_info(each)}/METADATA'].content)
+        for each in wheels
+    )
+    version = own['Version']
+    assert f"amr-description-ros =={version} ; extra == 'ros'" in own.get_all('Requires-Dist')
+    required = of_ros.get_all('Requires-Dist')
+    assert required[:2] == [
+        f'amr-description=={version}', f'amr-description-interfaces=={version}'
+    ]  # fmt: skip
+    locked = pinned_versions((ROOT / 'scripts/requirements.lock').read_text())
+    pins = dict(each.split('==') for each in required[2:])
+    assert pins.items() <= locked.items()
+    assert {name for name in locked if name.startswith('ros-')} < pins.keys()
+    assert own['Requires-Python'] == of_ros['Requires-Python']
 
 
 def test_all_that_colcon_installs_is_in_it(members):
@@ -63,7 +108,7 @@ def test_all_that_colcon_installs_is_in_it(members):
         str(path.relative_to(prefix)): path for path in prefix.rglob('*') if path.is_file()
     }
     wanted = {name for name in installed if not name.startswith(OF_COLCON)}
-    wanted.add(f'share/{NAME}/package.xml')
+    wanted |= {f'share/{NAME}/package.xml', f'share/{NAME}/pyproject.toml'}
     assert wanted - {*members} == set()
     for name in wanted:
         if name.startswith('share/'):
@@ -83,7 +128,7 @@ def test_all_modules_are_in_it_and_nothing_else(members):
         assert members[f'{SITE}/{name}'].content == (ROOT / name).read_bytes()
 
 
-def test_all_that_setup_writes_into_an_environment_is_in_it(members, tmp_path):
+def test_all_that_setup_writes_into_an_environment_is_in_it(wheels, members, tmp_path):
     venv = tmp_path / '.venv'
     written = launchers.files(venv, venv, launchers.Checkout(ROOT))
     wanted = {
@@ -92,12 +137,9 @@ def test_all_that_setup_writes_into_an_environment_is_in_it(members, tmp_path):
     of_a_checkout = {f'{SITE}/{NAME}.pth', str(launchers.HOME)}
     assert wanted - of_a_checkout - {*members} == set()
     assert all(members[f'bin/{name}'].executable for name in (*launchers.COMMANDS, 'bringup'))
-    (entry_points,) = [name for name in members if name.endswith('/entry_points.txt')]
-    parser = ConfigParser()
-    parser.read_string(members[entry_points].content.decode())
+    parser = entry_points_of(wheels[1])
     assert 'ament_copyright' in parser['pytest11']
     assert 'amr_description' in parser['colcon_core.package_selection']
-    assert 'console_scripts' not in parser  # thirty of them, on the PATH
 
 
 @pytest.fixture

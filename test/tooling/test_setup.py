@@ -34,6 +34,7 @@ def checkout(tmp_path):
     """A checkout with the files that decide what is made; its path has a space."""
     root = tmp_path / 'my checkout'
     files = {
+        'pyproject.toml': '',
         'setup.py': '',
         'setup.cfg': '',
         'package.xml': '<package/>',
@@ -108,7 +109,7 @@ def test_edits_of_data_need_nothing_but_new_files_a_build(made, checkout):
     assert made() == ['workspace, on top']
 
 
-@pytest.mark.parametrize('name', ['setup.py', 'setup.cfg', 'package.xml'])
+@pytest.mark.parametrize('name', ['pyproject.toml', 'setup.py', 'setup.cfg', 'package.xml'])
 def test_another_manifest_needs_a_build(made, checkout, name):
     made()
     (checkout.root / name).write_text('changed')

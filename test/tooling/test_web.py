@@ -98,4 +98,4 @@ def test_users_need_no_node_js():
         if re.search(rb'\b(npm|npx|node_modules)\b', path.read_bytes())
     ]
     assert callers == []
-    assert "'viewer/static/**'" in (ROOT / 'setup.py').read_text()
+    assert '"viewer/static/**"' in (ROOT / 'pyproject.toml').read_text()

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """``--help`` of the executables: each prints its usage, and starts nothing."""
 
-import re
 import sys
 
 from fixtures.cli.commands import shell
 import pytest
-from support.paths import ROOT
+from support.paths import EXECUTABLES
 from support.ros_processes import run
 
 NODES = {
@@ -22,9 +21,8 @@ NODES = {
     'viewer': 'port  integer, 8080\n      Port to listen on, or the next one that is free',
 }
 """What takes ROS arguments only, or a description: and a line of its help."""
-OTHERS = set(
-    re.findall(r"^ +'(\w+) = ", (ROOT / 'setup.py').read_text(encoding='utf-8'), re.MULTILINE)
-) - {*NODES, 'bringup', 'replay', 'xacro'}  # replay: test/unit/testing/test_replay.py
+OTHERS = EXECUTABLES.keys() - {*NODES, 'bringup', 'replay', 'xacro'}
+# replay: test/unit/testing/test_replay.py
 
 
 @pytest.mark.parametrize('option', ['-h', '--help'])

@@ -8,6 +8,7 @@ import re
 import pytest
 from support.animation import chunks, size_of
 from support.doc_pages import Page, ROOT
+from support.paths import EXECUTABLES
 
 from amr_description.bringup.stacks import STACKS
 from amr_description.registry import resolve
@@ -17,7 +18,6 @@ FRONT, INDEX, CONTRIBUTING = '../README.md', 'README.md', '../CONTRIBUTING.md'
 NAMES = [FRONT, CONTRIBUTING, *sorted(path.name for path in (ROOT / 'docs').glob('*.md'))]
 PAGES = pytest.mark.parametrize('page', [*map(Page, NAMES)], ids=NAMES)
 GLOSSARY, MESSAGES = Page('glossary.md'), Page('troubleshooting.md')
-EXECUTABLES = set(re.findall(r"'(\w+) = amr_description", (ROOT / 'setup.py').read_text()))
 
 
 def anchors(path):
@@ -41,7 +41,7 @@ def test_links_lead_somewhere(page):
 
 @PAGES
 def test_commands_are_there(page):
-    assert set(re.findall(r'ros2 run amr_description (\w+)', page.text)) <= EXECUTABLES | {'NAME'}
+    assert set(re.findall(r'ros2 run amr_description (\w+)', page.text)) <= {*EXECUTABLES, 'NAME'}
     for line in re.findall(r'(?:ros2 launch amr_description|scripts/run) ([a-z].*)', page.text):
         name, *words = line.strip('`.,;)(').replace('`', ' ').split()
         name = {'gazebo.launch.py': 'simulation', 'display.launch.py': 'display'}.get(name, name)
