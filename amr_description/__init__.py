@@ -12,6 +12,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``hardware/``           hardware components: MuJoCo, mock, serial
 ``sim/``                MuJoCo without ROS; in ``sim/ros/`` the services of simulation_interfaces
 ``simulation/``         a simulation in this process, without ROS
+``trials/``             functions that drive it, run with many seeds: how often they pass
 ``tf2_ros/``            Buffer, TransformListener, broadcasters
 ``message_filters/``    synchronizers and caches of topics, as ``import message_filters``
 ``sensor_msgs_py/``     point clouds as arrays, as ``import sensor_msgs_py``

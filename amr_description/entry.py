@@ -127,7 +127,7 @@ def use_one_blas_thread() -> None:
 
 _package = LazyEntryPoint(__package__)
 bringup, nodes, testing = _package.bringup, _package.nodes, _package.testing
-simulation = _package.simulation
+simulation, trials = _package.simulation, _package.trials
 OWN_NODES: str = nodes.path
 """The package whose modules are the nodes, named as their executables."""
 xacro = LazyEntryPoint('xacro')

@@ -33,6 +33,7 @@ Every error that this package raises on purpose.
     │   ├── MapMetadataError   … its .yaml file
     │   └── MapDataError       … its image
     ├── NavigationError      a goal cannot be planned, or not be driven to; has Nav2's error code
+    ├── TrialsError          trials cannot be run as they are asked for
     ├── CalibrationError     the measured drive does not determine the parameters
     ├── InterfaceBuildError  an interface package cannot be built
     │   └── CompilerError    … because there is no C and C++ compiler that works (exit code 3)
@@ -198,6 +199,10 @@ class NavigationError(AmrError):
     def __init__(self, error_code: int, text: str) -> None:
         super().__init__(text)
         self.error_code = error_code
+
+
+class TrialsError(AmrError):
+    """Trials cannot be run as they are asked for."""
 
 
 class CalibrationError(AmrError):

@@ -18,14 +18,13 @@ class SensorNoise:
     def __init__(self, noises: Sequence[Noise], seed: Sequence[int]) -> None:
         """``seed``: numbers ≥ 0, different for every sensor."""
         self._noises = tuple(noises)
-        self._seed = tuple(seed)
-        self.restart()
+        self.restart(seed)
 
-    def restart(self) -> None:
-        """Restart the random stream, and the biases."""
+    def restart(self, seed: Sequence[int]) -> None:
+        """Restart the random stream, and the biases, from a seed."""
         from numpy.random import Generator, PCG64  # slow to import, and few sensors have noise
 
-        self._generator = Generator(PCG64(self._seed))
+        self._generator = Generator(PCG64(tuple(seed)))
         self._biases = [self._first_bias(noise) for noise in self._noises]
 
     def _first_bias(self, noise: Noise) -> float:

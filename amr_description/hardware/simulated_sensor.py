@@ -78,9 +78,11 @@ class SimulatedSensor(ABC):
         known = [(self.interfaces.index(i), each) for i, each in noises if i in self.interfaces]
         self._noisy = [index for index, _ in known]
         if known:
-            # No name contains a 0: no other robot and sensor have the same seed.
-            seed = (*self.world.seed, 0, *self.states[0].prefix.encode(), *self.stream)
-            self._noise = SensorNoise([noise for _, noise in known], seed)
+            self._noise = SensorNoise([noise for _, noise in known], self._seed())
+
+    def _seed(self) -> Sequence[int]:
+        # No name contains a 0: no other robot and sensor have the same seed.
+        return (*self.world.seed, 0, *self.states[0].prefix.encode(), *self.stream)
 
     @abstractmethod
     def measure(self, period: float) -> Sequence[float]:
@@ -110,9 +112,9 @@ class SimulatedSensor(ABC):
         return noisy
 
     def restart(self) -> None:
-        """Begin anew, after a reset: the same noise again."""
+        """Begin anew, after a reset: the same noise again, unless the seed is another."""
         if self._noise is not None:
-            self._noise.restart()
+            self._noise.restart(self._seed())
 
 
 def mount_of(info: ComponentInfo, robot: Robot, gazebo: GazeboSensor | None) -> Mount:

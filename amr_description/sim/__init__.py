@@ -35,6 +35,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``containment.py``      a robot whose state is lost stands still, the others go on
 ``entity_state.py``     pose, motion and bounds of a robot; setting them
 ``wrenches.py``         pushes from outside
+``model_changes.py``    masses, frictions, wheels, gravity: changed until a reset
 ``contact_sensor.py``   a contact sensor on a robot
 ``contacts.py``         what touches the collisions of a robot
 ``static_geometry.py``  the visible shapes of a world

@@ -11,6 +11,7 @@ number of them. The physics step is the longest divisor of the control period th
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from hashlib import blake2b
 import warnings
 
 import mujoco
@@ -126,6 +127,12 @@ class Engine:
         state = np.empty(mujoco.mj_stateSize(self.model, _INTEGRATION))
         mujoco.mj_getState(self.model, self.data, state, _INTEGRATION)
         return self.time.to_bytes(8) + self._solver.state() + state.tobytes()
+
+    def constants(self) -> bytes:
+        """Return a digest of the whole model: what :meth:`state` does not have."""
+        buffer = np.empty(mujoco.mj_sizeModel(self.model), np.uint8)
+        mujoco.mj_saveModel(self.model, None, buffer)
+        return blake2b(buffer, digest_size=16).digest()
 
     def step(self, count: int) -> None:
         """Advance by ``count`` physics steps, in one call into C if nothing is done between."""

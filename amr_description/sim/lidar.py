@@ -126,7 +126,6 @@ class SimulatedLidar:
         self.lidar = lidar
         self._robot = robot
         self._shape = (lidar.vertical.samples, lidar.horizontal.samples)
-        self._bias = self._draw_bias()
         self._binding: _Binding | None = None
         mount = lidar.mount.pose
         self._offset = np.array(mount.translation)
@@ -176,7 +175,7 @@ class SimulatedLidar:
         if noise.stddev > 0.0:
             generator = noise_generator(self._robot.seed, self.lidar.mount.path, time)
             distances += noise.stddev * generator.standard_normal(len(distances))
-        distances += noise.mean + self._bias
+        distances += noise.mean + self._bias()
         for step in (noise.precision, lidar.range_resolution):
             if step > 0.0:
                 distances = np.round(distances / step) * step
@@ -184,8 +183,8 @@ class SimulatedLidar:
         distances[is_near], distances[is_far] = -math.inf, math.inf
         return distances
 
-    def _draw_bias(self) -> float:
-        """Draw the bias, which stays; see :class:`~amr_description.model.gazebo.Noise`."""
+    def _bias(self) -> float:
+        """Draw the bias, the same for a seed; see :class:`~amr_description.model.gazebo.Noise`."""
         noise = self.lidar.noise
         if not (noise.bias_mean or noise.bias_stddev):
             return 0.0

@@ -67,8 +67,7 @@ class RobotView:
             ray_scene: What can be seen, where it is now; None: nothing.
         """
         self.name = name
-        self.seed = (seed, *name.encode())
-        """Seeds the noise of the robot's sensors."""
+        self.seed_with(seed)
         self.description = description
         self.wheels = model.wheels
         """The links that touch the ground as wheels."""
@@ -87,6 +86,11 @@ class RobotView:
         self._initial_states = model.initial_states
         self._actuators = RobotActuators(engine, name, model.commands)
         self.start()
+
+    def seed_with(self, seed: int) -> None:
+        """Take the seed of the world."""
+        self.seed = (seed, *self.name.encode())
+        """Seeds the noise of the robot's sensors."""
 
     def start(self) -> None:
         """Set the joints to their initial states, held; called at spawn and after a reset."""

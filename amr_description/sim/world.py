@@ -165,6 +165,19 @@ class MujocoWorld:
         self.engine.timestep = timestep
 
     @property
+    def seed(self) -> int:
+        """Of the noise of all sensors; one that is set counts from the next reset on."""
+        return self._seed
+
+    @seed.setter
+    def seed(self, seed: int) -> None:
+        if seed < 0:
+            raise SimulationError(f'a seed of {seed} is asked; 0 and above will do')
+        self._seed = seed
+        for view in self._robots.values():
+            view.seed_with(seed)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """The names of the robots, in the order in which they were spawned."""
         return tuple(self._robots)

@@ -34,6 +34,7 @@ from amr_description.model.gazebo_builder import GazeboTranslation
 from amr_description.parameters import build
 from amr_description.plugin_errors import describe
 from amr_description.sim.world import MujocoWorld
+from amr_description.simulation.alterations import Alterations
 from amr_description.simulation.api import SimulationApi
 from amr_description.simulation.engine import SimulationEngine, Spawned
 from amr_description.simulation.local_manager import LocalHost, LocalManager
@@ -83,6 +84,10 @@ class Simulation(SimulationApi[Robot]):
         self._loop, self.world = self._engine.loop, self._engine.world
         """The physics; for the model and the state of MuJoCo."""
         self._published.loop = self._loop
+        self.altered = Alterations(
+            self.world, self._loop, self._published.publisher.observers, self._log
+        )
+        """What a test changes, until the next reset."""
         self._instruments = Instruments(self.world, settings.camera_renderer, self._log)
         self._playing = Playing(self._rtf or 1.0)
         self._page: ShownPage | None = None
@@ -117,6 +122,7 @@ class Simulation(SimulationApi[Robot]):
 
     def _spawn(self, namespace: str, name: str, pose: Transform) -> Robot:
         """``name``: of the entity; empty: that of the URDF."""
+        self.altered.model.require_none()
         engine, log = self._engine, self._log
         robot = engine.read(self._description, name or 'robot_description')
         host = LocalHost(self._lines, lambda: self.world.time, self._published.publisher)
@@ -135,7 +141,9 @@ class Simulation(SimulationApi[Robot]):
                 raise
         log(Severity.INFO, f"Spawned '{given}'")
         view = self.world.robot(given)
-        sensors = RobotSensors(self._instruments, view, translation.sensors, inside)
+        sensors = RobotSensors(
+            self._instruments, view, translation.sensors, inside, self.altered.scans
+        )
         known = SpawnedRobot(given, inside, robot, pose)
         self._published.add(known, translation.sensors)
         return Robot(view, known, namespace, manager, topics, sensors)
@@ -158,6 +166,7 @@ class Simulation(SimulationApi[Robot]):
         )
 
     def _delete(self, robot: Robot) -> None:
+        self.altered.model.require_none()
         robot.close()
         self._published.remove(robot.name)
         self._engine.remove(robot.name)
@@ -190,9 +199,17 @@ class Simulation(SimulationApi[Robot]):
             )
         self._serve()
 
-    def reset(self) -> None:
-        """Reset: time 0, robots where they were spawned, odometry at zero."""
+    def reset(self, *, seed: int | None = None) -> None:
+        """
+        Reset: time 0, robots where they were spawned, odometry at zero, nothing altered.
+
+        Args:
+            seed: Of the noise of all sensors from now on, 0 or above; None: the same again.
+        """
         self._require_running()
+        if seed is not None:
+            self.world.seed = seed
+        self.altered.undo()
         self._published.restart()
         self._engine.reset()
         for robot in self._robots.values():
@@ -228,7 +245,8 @@ class Simulation(SimulationApi[Robot]):
         time = self.world.time
         for topic, inputs in found.items():
             message = messages[topic]
-            self._put(topic, inputs, partial(command_of, message=message, time=time))
+            make = partial(command_of, message=message, time=time)
+            self.altered.send(partial(self._put, topic, inputs, make))
 
     def _repeat(self, topic: str, message: Any) -> None:
         from amr_description.messages.commands import recorded_command

@@ -124,7 +124,9 @@ class Published:
             time=lambda: world.time,
             has_ticked=has_ticked,
             is_paced=lambda: False,
-            describe=lambda: describe_run(values.__getitem__, settings.world, spawned()),
+            describe=lambda: describe_run(
+                {**values, 'seed': world.seed}.__getitem__, settings.world, spawned()
+            ),
             robots=spawned,
             transforms=LinkTransforms(world),
             log=log,

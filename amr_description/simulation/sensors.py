@@ -7,7 +7,7 @@ They measure when they are read, from the state of that instant and with its noi
 and what is not read costs nothing. What they measure with is imported with the first sensor.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -117,6 +117,7 @@ class RobotSensors:
         view: RobotView,
         sensors: Sequence[WorldSensor],
         namespace: str,
+        altered: Mapping[str, Sequence[Callable[[Scan], Scan]]],
     ) -> None:
         """
         Take the sensors.
@@ -126,8 +127,10 @@ class RobotSensors:
             view: The robot in the world.
             sensors: Of its description.
             namespace: Of its topics, absolute.
+            altered: What is made of scans that are read, by the names of robots.
         """
         self._instruments, self._view, self._namespace = instruments, view, namespace
+        self._altered = altered
         self._topics = SensorTopics(view.name, sensors, namespace)
 
     @property
@@ -138,7 +141,10 @@ class RobotSensors:
     def scan(self, topic: str = '') -> Scan:
         """Return what a lidar sees now; of the only one, or of that with a topic."""
         lidar = self._found(Lidar, (SCAN,), topic)
-        return self._measuring.scan(self._view, lidar, self._namespace)
+        scan = self._measuring.scan(self._view, lidar, self._namespace)
+        for alter in self._altered.get(self._view.name, ()):
+            scan = alter(scan)
+        return scan
 
     def image(self, topic: str = '') -> Image:
         """Return the colours that a camera sees now."""

@@ -25,7 +25,7 @@ VERSIONS = ('3.11', '3.14', '3.13')
 """Of Pythons that are looked for, the first one counts: the oldest, which lacks most."""
 FOLDERS = (
     'base', 'model', 'control', 'controllers', 'controller_manager', 'hardware', 'sim',
-    'simulation', 'navigation', 'bag',
+    'simulation', 'navigation', 'bag', 'trials',
 )  # fmt: skip
 """Of test/unit/: what the simulation is made of. Exceptions: test/support/without_ros.py."""
 NOT_OF_THE_ENGINE = ('ros', 'test')

@@ -85,6 +85,7 @@ ARROWS = {
         'control',
         'model',
     },  # fmt: skip
+    'trials': {'simulation', 'sim', 'control', 'model'},
     'control/ros': {
         'ros',
         'cdr',
@@ -412,7 +413,7 @@ def needed_by_the_simulation() -> set[str]:
     arrows: dict[str, set[str]] = {}
     for module, _, _, name in own_imports():
         arrows.setdefault(module, set()).update(with_parents(name))
-    needed = {module for module in SOURCES if room_of(module) == 'simulation'}
+    needed = {module for module in SOURCES if room_of(module) in ('simulation', 'trials')}
     waiting = list(needed)
     while waiting:
         found = arrows.get(waiting.pop(), set()) - needed

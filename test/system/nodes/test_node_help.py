@@ -21,8 +21,8 @@ NODES = {
     'viewer': 'port  integer, 8080\n      Port to listen on, or the next one that is free',
 }
 """What takes ROS arguments only, or a description: and a line of its help."""
-OTHERS = EXECUTABLES.keys() - {*NODES, 'bringup', 'replay', 'xacro'}
-# replay: test/unit/testing/test_replay.py
+OTHERS = EXECUTABLES.keys() - {*NODES, 'bringup', 'replay', 'trials', 'xacro'}
+# replay, trials: test_replay.py, test_trials_in_processes.py
 
 
 @pytest.mark.parametrize('option', ['-h', '--help'])

@@ -72,7 +72,7 @@ def test_the_same_seed_gives_the_same_bits_and_another_others():
 def test_a_restart_repeats_them():
     source = SensorNoise([Noise(stddev=1.0, bias_stddev=1.0), Noise(stddev=2.0)], (5,))
     first = [source.apply([0.0, 0.0], 0.01) for _ in range(50)]
-    source.restart()
+    source.restart((5,))
     assert [source.apply([0.0, 0.0], 0.01) for _ in range(50)] == first
 
 
