@@ -14,6 +14,7 @@ For tests of robots: a simulation in lock-step with the test, over real ROS.
 ======================  ==========================================================================
 ``simulation.py``       Simulation: what a test uses
 ``fixtures.py``         the same as a pytest fixture
+``trials_marker.py``    … a marker: tests that are run with many seeds, without ROS
 
 ``robot.py``            one robot: spawned, controlled, and read by its topics
 ``readings.py``         its motion and joint states, from messages

@@ -148,6 +148,7 @@ ARROWS = {
     },
     # It starts mujoco_sim and check_urdf.
     'testing': {
+        'trials',
         'bringup',
         'cli',
         'control/ros',
