@@ -15,7 +15,7 @@ from amr_description.testing.simulation import Simulation
 PAGE = Page('test_your_robot.md')
 FIRST, CONFTEST, TESTS, FLEET, ARM, SENSORS, SAME_BITS = PAGE.blocks('python')
 (ARM_YAML,) = PAGE.blocks('yaml')
-(OF_README,) = Page('../README.md').blocks('python')
+OF_README, _ = Page('../README.md').blocks('python')
 ARM_URDF = ROOT / 'test' / 'fixtures' / 'sim' / 'arm.urdf'
 
 

@@ -17,7 +17,7 @@ from amr_description import Simulation
 TESTING = Page('test_your_robot.md')
 OVER_ROS = 'from amr_description.testing.simulation import Simulation'
 BLOCKS = [block for block in TESTING.blocks('python') if OVER_ROS in block]
-(FRONT,) = Page('../README.md').blocks('python')
+FRONT, _ = Page('../README.md').blocks('python')  # the other: test_docs_trials.py
 CONTROLLER = Page('write_your_own_controller.md')
 PAGE = Page('simulation.md')
 WORLD = """
