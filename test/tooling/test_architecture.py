@@ -31,15 +31,15 @@ FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it. The last to
 # raise them were simulations without ROS (recordings, services, actions, frames, replays, films,
 # the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
-# motions, the geometry of plugins, dialects of vendors).
+# motions, the geometry of plugins, dialects of vendors), and trials with their faults and seeds.
 BUDGETS = {
-    'modules': 826,
-    'code lines': 91_216,
+    'modules': 842,
+    'code lines': 93_091,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_617,
+    'code lines of helpers in test files': 25_951,
 }
 
 BASE = {
