@@ -191,7 +191,8 @@ def _with_bags(
     patience = 3 * timeout  # to record takes longer
     with RunnerProcesses(min(cores(), len(again)), patience) as p:
         runs, _ = _gathered(p.run(again), len(again), None)
-    bags = {name: folder / name for name in runs if (folder / name).is_dir()}
+    names = [run.name for run in failures if run.name in runs]
+    bags = {name: folder / name for name in names if (folder / name).is_dir()}
     unlike = tuple(
         run.name for run in failures if run.name in runs and not run.is_as(runs[run.name])
     )

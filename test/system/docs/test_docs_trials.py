@@ -3,6 +3,7 @@
 """docs/trials.md, line by line, and what the front page has of it."""
 
 import json
+import os
 import shlex
 import subprocess
 import sys
@@ -20,7 +21,10 @@ PLUGINS = "pytest_plugins = ['amr_description.testing.trials_marker']"
 
 def run(*words, cwd):
     program = [sys.executable, *map(str, words)]
-    return subprocess.run(program, cwd=cwd, text=True, capture_output=True, timeout=240)
+    environment = os.environ | {'PYTEST_ADDOPTS': ''}  # those of the run that this test is of
+    return subprocess.run(
+        program, cwd=cwd, env=environment, text=True, capture_output=True, timeout=240
+    )
 
 
 def typed(beginning, cwd):

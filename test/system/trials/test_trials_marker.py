@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The marker of pytest for trials, in a project of a user's that has nothing of ROS."""
 
+import os
 import re
 import subprocess
 import sys
@@ -55,7 +56,14 @@ def run(tmp_path):
 
     def run(*words):
         command = [sys.executable, '-m', 'pytest', '-p', 'no:cacheprovider', *words]
-        return subprocess.run(command, cwd=tmp_path, text=True, capture_output=True, timeout=240)
+        return subprocess.run(
+            command,
+            cwd=tmp_path,
+            env=os.environ | {'PYTEST_ADDOPTS': ''},  # those of the run that this test is of
+            text=True,
+            capture_output=True,
+            timeout=240,
+        )
 
     return run
 
