@@ -225,11 +225,15 @@ class Simulation(SimulationApi[Robot]):
         """
         self._require_running()
         playing = self._playing
-        play(playing, self._advance, self.timestep, self._serve, seconds)
+        play(playing, self._advance, self.timestep, self._attend, seconds)
 
     def _serve(self) -> None:
         if self._page is not None:
             self._page.serve()
+
+    def _attend(self) -> None:
+        if self._page is not None:
+            self._page.attend()
 
     # --- topics, services, actions, frames -----------------------------------------------------
 
@@ -457,7 +461,10 @@ class Simulation(SimulationApi[Robot]):
                 raise SimulationError(
                     'show() serves a page, and needs websockets: python -m pip install websockets'
                 ) from error
-            self._page = ShownPage(self, self._engine, self._playing, port=port, token=token)
+            observers = self._published.publisher.observers
+            self._page = ShownPage(
+                self, self._engine, self._playing, observers, port=port, token=token
+            )
         else:
             self._page.refresh()
         if wait:

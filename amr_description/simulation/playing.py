@@ -41,7 +41,7 @@ def play(
     playing: Playing,
     advance: Callable[[int], None],
     timestep: float,
-    serve: Callable[[], None],
+    attend: Callable[[], None],
     seconds: float,
 ) -> None:
     """
@@ -51,7 +51,7 @@ def play(
         playing: How; pages change it meanwhile.
         advance: Makes physics steps.
         timestep: A physics step, s.
-        serve: Does what pages have asked, between two of those.
+        attend: Does what pages have asked, between two of those; refuses it while nothing plays.
         seconds: Of the wall clock, at most; inf: until Ctrl-C.
 
     Raises:
@@ -61,11 +61,12 @@ def play(
         raise SimulationError(f'{seconds} s are asked; a time not below 0 will do, or none')
     if playing.is_on:
         raise SimulationError('the simulation plays already')
+    attend()  # what came too late for the last time does not act now
     begin = due = wall.monotonic()
     playing.is_on, playing.is_paused = True, False
     try:
         while (now := wall.monotonic()) - begin < seconds:
-            serve()
+            attend()
             if playing.is_paused:
                 due = now + _PERIOD
             else:
@@ -78,4 +79,4 @@ def play(
         pass  # it is how this ends
     finally:
         playing.is_on = False
-        serve()  # whoever still waits hears that it has ended
+        attend()  # whoever still waits hears that it has ended

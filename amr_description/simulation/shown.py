@@ -6,6 +6,8 @@ The page of a simulation in this process: served beside it, and given what it sh
 :meth:`ShownPage.serve` and what it calls are for the thread of the simulation.
 """
 
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 import html
 import logging
@@ -28,7 +30,7 @@ from amr_description.simulation.playing import Playing
 from amr_description.simulation.robot import Robot
 from amr_description.simulation.shown_scene import Scene, shown_robot, ShownRobot, world_of
 from amr_description.viewer.backend import Hold
-from amr_description.viewer.protocol import ServerMessage, SimulationStatus, TimeReset
+from amr_description.viewer.protocol import ServerMessage, SimulationStatus, TimeReset, World
 from amr_description.viewer.real_time import RealTimeFactor
 from amr_description.viewer.server import Server, ServerSettings
 
@@ -55,6 +57,7 @@ class ShownPage:
         simulation: SimulationApi[Robot],
         engine: SimulationEngine,
         playing: Playing,
+        observers: list[Callable[[int], None]],
         *,
         port: int,
         token: bool,
@@ -66,6 +69,7 @@ class ShownPage:
             simulation: That is shown.
             engine: Of it.
             playing: How time passes.
+            observers: Of ends of cycles, at each of which STOP acts.
             port: To listen on, or the next one that is free; 0: any.
             token: Make a token part of the address: of the users of this host, only who has it
                 may open the page.
@@ -79,6 +83,8 @@ class ShownPage:
         self._scenes = 0
         self._shown: tuple[list[Robot], str] = ([], '')
         """Of which robots, and in which world, the scene is."""
+        self._world: World | None = None
+        """The static shapes of that world."""
         self._speed = RealTimeFactor()
         self._time = 0
         self._told: tuple[str, float | None] = ('', None)
@@ -98,6 +104,8 @@ class ShownPage:
         """The address of the page, with its token if it has one."""
         self.refresh()
         self._server.start(is_daemon=True)  # a program may end without close()
+        self._observers = observers
+        observers.append(self._hold)
 
     def __repr__(self) -> str:
         return f'<the page is at {self.url}>'
@@ -109,7 +117,8 @@ class ShownPage:
         return f'<iframe src="{address}" width="100%" height="600" style="border: 0"></iframe>'
 
     def close(self) -> None:
-        """End the server; it may be called again."""
+        """End the server."""
+        self._observers.remove(self._hold)
         self._server.stop()
 
     def refresh(self) -> None:
@@ -118,15 +127,18 @@ class ShownPage:
 
     # --- between two steps --------------------------------------------------------------------
 
-    def serve(self) -> None:
-        """Do what pages have asked, and show them what is new."""
+    def attend(self) -> None:
+        """Do what pages have asked; once the program plays no more, they are told so."""
         calls = self._backend.calls
         while not calls.empty():
             calls.get_nowait()()
-        now = wall.monotonic()
-        self._hold(now)
+        self.serve()
+
+    def serve(self) -> None:
+        """Show pages what is new."""
+        self._hold()
         if self._backend.has_pages:
-            self._show(now)
+            self._show(wall.monotonic())
 
     def _show(self, now: float) -> None:
         """Show where everything is: after each call of the program, at a rate while it plays."""
@@ -164,10 +176,12 @@ class ShownPage:
         made = [known.get(each) or shown_robot(each, views.robot(each.name)) for each in robots]
         self._scene = Scene({each.id: each for each in made}, self._scenes)
         self._scenes += 1
-        empty = MujocoWorld(world, settings=self._engine.settings.physics).engine
+        if self._world is None or world != self._shown[1]:
+            empty = MujocoWorld(world, settings=self._engine.settings.physics).engine
+            self._world = world_of(empty, SIMULATOR)
         graph = self._scene.graph(SIMULATOR, world)
         described = {name: each.described for name, each in self._scene.robots.items()}
-        self._backend.show_scene(graph, world_of(empty, SIMULATOR), described, self._scene.layout)
+        self._backend.show_scene(graph, self._world, described, self._scene.layout)
         self._shown = robots, world
 
     def _status(self, time: int) -> SimulationStatus:
@@ -182,17 +196,24 @@ class ShownPage:
 
     # --- STOP ---------------------------------------------------------------------------------
 
-    def _hold(self, now: float) -> None:
+    def _hold(self, _time: int = 0) -> None:
         """Hold the robots that STOP holds, and release those that it does not hold any more."""
         held = self._backend.held
-        if held == self._locked and (not held or now < self._lock_due):
+        if held == self._locked and not held:
+            return
+        now = wall.monotonic()
+        if held == self._locked and now < self._lock_due:
             return
         self._lock_due = now + _LOCK_PERIOD
         for name in held | self._locked:
             if (each := self._scene.robots.get(name)) is None:
                 continue
-            for lock in each.robot.ports(Input, _lock_topic(name)):
+            locks = [*each.robot.ports(Input, _lock_topic(name))]
+            for lock in locks:
                 lock.put(FlagSample(name in held), _FLAGS[name in held])
+            if name in held and not locks and each.robot.command_topic:
+                with suppress(SimulationError):  # no controller takes it, so that none drives
+                    self.drive(name, 0.0, 0.0, 0.0)
         self._locked = held
 
     def _hold_of(self, each: ShownRobot) -> Hold:

@@ -10,6 +10,7 @@ from support.paths import ROOT
 from support.shown_page import play, request, run, ShownPage
 
 from amr_description import Simulation
+from amr_description.controllers.diff_drive_controller import DiffDriveController
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.simulation.page_backend import IDLE, SIMULATOR
@@ -140,9 +141,8 @@ def test_what_cannot_be_done_says_so_in_one_line(page):
 def test_stop_holds_the_robot_whoever_drives_it(sim, page):
     page.say('press_stop', robot='/')
     page.wait(lambda: any(each['robots'] for each in page.of('emergency_stop')))
-    sim.step()
     sim.drive(0.5, 0.0, seconds=0.5, stop=False)
-    assert sim.truth.x == pytest.approx(0.0, abs=1e-3)
+    assert sim.truth.x == pytest.approx(0.0, abs=0.01)
     assert page.newest('emergency_stop')['robots'][0]['is_locked']
     page.say('release', robot='/')
     page.wait(lambda: not page.of('emergency_stop')[-1]['robots'])
@@ -237,6 +237,7 @@ def test_who_shows_nothing_imports_nothing_of_it():
     found = run(f"""
 import sys
 from amr_description import Simulation
+from amr_description.controllers.diff_drive_controller import DiffDriveController
 with Simulation({str(URDF)!r}) as sim:
     sim.drive(0.1, 0.0, seconds=0.1)
 print([name for name in sys.modules if name.startswith(('websockets', 'asyncio.base_events',
@@ -250,6 +251,7 @@ def test_without_websockets_one_line_says_what_to_install():
 import sys
 sys.modules['websockets'] = None
 from amr_description import Simulation
+from amr_description.controllers.diff_drive_controller import DiffDriveController
 from amr_description.errors import SimulationError
 with Simulation({str(URDF)!r}) as sim:
     try:
@@ -260,3 +262,35 @@ with Simulation({str(URDF)!r}) as sim:
     assert (
         found == 'show() serves a page, and needs websockets: python -m pip install websockets\n'
     )
+
+
+class OwnDiffDriveController(DiffDriveController):
+    """One that knows nothing of ``emergency_stop``."""
+
+    def inputs(self):
+        return tuple(each for each in super().inputs() if 'emergency' not in each.port.name)
+
+
+def test_stop_commands_a_robot_to_stand_that_has_no_lock(tmp_path):
+    text = (ROOT / 'config' / 'controllers.yaml').read_text()
+    own = f'type: {__name__}/OwnDiffDriveController'
+    controllers = tmp_path / 'controllers.yaml'
+    controllers.write_text(text.replace('type: diff_drive_controller/DiffDriveController', own))
+    with Simulation(URDF, controllers) as sim, ShownPage(sim.show(port=0).url) as page:
+        page.newest('layout')
+        sim.drive(0.5, 0.0, seconds=0.5, stop=False)
+        page.say('press_stop', robot='/')
+        page.wait(lambda: any(each['robots'] for each in page.of('emergency_stop')))
+        assert not page.newest('emergency_stop')['robots'][0]['is_locked']
+        before = sim.truth.x
+        sim.run(0.4)  # without a command it would drive on for 0.5 s
+        assert before > 0.2
+        assert sim.truth.x == pytest.approx(before, abs=0.1)
+
+
+def test_what_a_page_asked_too_late_does_not_act_when_it_plays_again(sim, shared):
+    acted = []
+    shared[1]._backend.calls.put(lambda: acted.append(sim._playing.is_on))
+    sim.run(0.1)
+    sim.play(0.05)
+    assert acted == [False]
