@@ -15,18 +15,20 @@ and ``bags/``, those of the first ten failures. Ctrl-C keeps what is done.
 
 Exit codes: 0: as many have passed as are asked for; 1: fewer; 2: wrong options; 3: enough have
 passed, but one hung, died, returned no number, or came to something else when it was repeated;
-130: Ctrl-C.
+130: Ctrl-C; 143: SIGTERM, which keeps what is done, too.
 """
 
 import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
-from contextlib import ExitStack
+from contextlib import contextmanager, ExitStack
 import importlib
 from pathlib import Path
 import shutil
+import signal
 import sys
 import time
+from typing import NoReturn
 
 from amr_description.errors import AmrError, TrialsError
 from amr_description.trials.function import TrialFunction
@@ -34,7 +36,7 @@ from amr_description.trials.page import page_of
 from amr_description.trials.report import merged, TrialsReport
 from amr_description.trials.runner import TIMEOUT, trials
 
-INTERRUPTED = 130
+INTERRUPTED, TERMINATED = 130, 143
 _BAR = 30
 """Characters of the progress bar."""
 _PERIOD = 0.1
@@ -59,7 +61,7 @@ def parser() -> argparse.ArgumentParser:
         prog='trials',
         description='Run a function with many seeds, and say how often it passes.',
         epilog='Exit code: 0; 1 fewer than --at-least have passed; 2 wrong arguments; 3 enough, '
-        'but a run hung, died, gave no number or did not repeat; 130 Ctrl-C.',
+        'but a run hung, died, gave no number or did not repeat; 130 Ctrl-C; 143 SIGTERM.',
         allow_abbrev=False,
     )
     add = options.add_argument
@@ -87,20 +89,38 @@ def main(args: Sequence[str] | None = None) -> int:
     """Run the executable; return its exit code."""
     options = parser()
     given = options.parse_args(args)
+    terminations: list[int] = []
     if (given.trial is None) == (given.merge is None):
         options.error('name a trial, as my_module:drive, or reports to --merge')
     try:
         if given.merge is not None:
             report = merged([_read(path) for path in given.merge])
         else:
-            report = _run(given)
+            with _terminations() as terminations:
+                report = _run(given)
         print(report)
         if given.output is not None:
             print(f'  {write(report, given.output)}')
     except AmrError as error:
         print(f'trials: {error}', file=sys.stderr)
         return 2
-    return exit_code(report, given.at_least)
+    return TERMINATED if terminations else exit_code(report, given.at_least)
+
+
+@contextmanager
+def _terminations() -> Iterator[list[int]]:
+    """Have SIGTERM, by which a CI ends a job, keep what is done as Ctrl-C does; yield those."""
+    received: list[int] = []
+
+    def interrupt(number: int, _frame: object) -> NoReturn:
+        received.append(number)
+        raise KeyboardInterrupt
+
+    former = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield received
+    finally:
+        signal.signal(signal.SIGTERM, former)
 
 
 def exit_code(report: TrialsReport, at_least: float) -> int:

@@ -29,7 +29,7 @@ import numpy as np
 
 from amr_description.errors import TrialsError
 from amr_description.simulation.in_process import Simulation
-from amr_description.text import unwrap
+from amr_description.text import one_line, unwrap
 from amr_description.trials.function import TrialFunction, Value
 
 MOST_SIMULATIONS = 4
@@ -128,6 +128,8 @@ class Simulations:
         if key in self._lent:
             self._note(self._lent[key])
         kept = self._kept.pop(key, None)
+        if kept is not None and not kept[0].is_alive:  # the trial has closed it
+            kept = None
         if kept is not None:
             kept[0].reset(seed=self._seed)
             if _mark(kept[0]) != kept[1]:
@@ -159,7 +161,7 @@ class Simulations:
         step = 0
         for sim in self._lent.values():
             step = self._note(sim)
-            if self._bag:
+            if self._bag and sim.is_alive:
                 sim.end_recording()
         self._lent.clear()
         return step, self._digest.hexdigest()
@@ -265,7 +267,7 @@ def message_of(error: BaseException) -> str:
         if not said and isinstance(error, AssertionError):
             said = linecache.getline(name, line).strip()
     kind = '' if is_failure(error) else f'{type(error).__name__}: '
-    text = f'{where}{kind}{said}'.rstrip(': ')
+    text = one_line(f'{where}{kind}{said}'.rstrip(': '))
     return text if len(text) <= _LONGEST else f'{text[: _LONGEST - 1]}…'
 
 

@@ -15,12 +15,14 @@ from hashlib import blake2b
 import json
 import math
 from pathlib import Path
+import shlex
 from typing import Any, NamedTuple
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 
 from amr_description.errors import TrialsError
+from amr_description.text import one_line
 from amr_description.trials.one_run import Ending, TrialRun
 
 Z = 1.959963984540054
@@ -117,7 +119,7 @@ class TrialsReport:
 
     def replay_line(self, run: TrialRun) -> str:
         """Return the command that repeats a run."""
-        return f'{COMMAND} {_quoted(self.label)} --only {run.name}'
+        return f'{COMMAND} {shlex.quote(self.label)} --only {run.name}'
 
     # --- text ---------------------------------------------------------------------------------
 
@@ -226,17 +228,17 @@ class TrialsReport:
             'time': f'{self.seconds:.3f}',
         }
         root = ElementTree.Element('testsuites')
-        suite = ElementTree.SubElement(root, 'testsuite', {'name': self.label, **counts})
+        suite = ElementTree.SubElement(root, 'testsuite', {'name': one_line(self.label), **counts})
         for run in self.runs:
             time = f'{run.seconds:.3f}'
             case = ElementTree.SubElement(
-                suite, 'testcase', classname=self.label, name=run.name, time=time
+                suite, 'testcase', classname=one_line(self.label), name=run.name, time=time
             )
             if run.kind is not Ending.PASSED:
                 is_failure = run.kind is Ending.FAILED
-                tag, message = 'failure' if is_failure else 'error', _printable(run.message)
+                tag, message = 'failure' if is_failure else 'error', one_line(run.message)
                 about = ElementTree.SubElement(case, tag, type=run.kind, message=message)
-                about.text = self.replay_line(run)
+                about.text = one_line(self.replay_line(run))
         ElementTree.indent(root)
         return ElementTree.tostring(root, encoding='unicode') + '\n'
 
@@ -274,13 +276,4 @@ def _place(run: TrialRun) -> tuple[int, int]:
 
 
 def _short(value: float | str) -> str:
-    return value if isinstance(value, str) else f'{value:.4g}'
-
-
-def _quoted(label: str) -> str:
-    return f"'{label}'" if set(label) & set(' ()&;*?$') else label
-
-
-def _printable(text: str) -> str:
-    """Return text without what XML cannot have."""
-    return ''.join(each if each.isprintable() else '?' for each in text)
+    return one_line(value) if isinstance(value, str) else f'{value:.4g}'

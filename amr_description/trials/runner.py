@@ -88,7 +88,7 @@ def trials(
         workers=0 if executor else count,
     )
     if bags is not None and not was_interrupted:
-        report = _with_bags(report, tasks, Path(bags), timeout)
+        report = _with_bags(report, tasks, Path(bags), timeout, workers or cores())
     return report
 
 
@@ -174,7 +174,7 @@ def _lost(task: Task, lost: Lost) -> TrialRun:
 
 
 def _with_bags(
-    report: TrialsReport, tasks: list[Task], folder: Path, timeout: float
+    report: TrialsReport, tasks: list[Task], folder: Path, timeout: float, count: int
 ) -> TrialsReport:
     """Record the first failures, each by a second run, which has to come to the same."""
     by_name = {task.name: task for task in tasks}
@@ -189,11 +189,11 @@ def _with_bags(
         for run in failures
     ]
     patience = 3 * timeout  # to record takes longer
-    with RunnerProcesses(min(cores(), len(again)), patience) as p:
-        runs, _ = _gathered(p.run(again), len(again), None)
+    with RunnerProcesses(min(count, len(again)), patience) as processes:
+        runs, was_interrupted = _gathered(processes.run(again), len(again), None)
     names = [run.name for run in failures if run.name in runs]
     bags = {name: folder / name for name in names if (folder / name).is_dir()}
     unlike = tuple(
         run.name for run in failures if run.name in runs and not run.is_as(runs[run.name])
     )
-    return replace(report, bags=bags, unlike=unlike)
+    return replace(report, bags=bags, unlike=unlike, was_interrupted=was_interrupted)

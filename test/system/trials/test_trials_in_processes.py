@@ -149,15 +149,22 @@ def test_the_exit_code_says_what_happened():
         assert said in done.stderr.splitlines()[-1]
 
 
-def test_ctrl_c_keeps_what_is_done(tmp_path):
-    """In a terminal it reaches all processes of the group."""
+@pytest.mark.parametrize(
+    ('send', 'sent', 'code'),
+    [
+        (os.killpg, signal.SIGINT, 130),  # in a terminal it reaches all processes of the group
+        (os.kill, signal.SIGTERM, 143),  # as a CI ends a job
+    ],
+    ids=['ctrl_c', 'sigterm'],
+)
+def test_an_end_before_time_keeps_what_is_done(tmp_path, send, sent, code):
     out = tmp_path / 'out'
     words = [*COMMAND, 'drives:slow', '--seeds', '500', '--workers', '2', '-o', str(out)]
     with Program(*words, cwd=FILE.parent, terminal=True) as program:
         program.expect('[1-9][0-9]*/500, 0 not passed, [0-9]+ s')
         children = workers_of(program.process.pid)
-        os.killpg(program.process.pid, signal.SIGINT)
-        assert program.end() == 130
+        send(program.process.pid, sent)
+        assert program.end() == code
     assert len(children) == 2
     data = json.loads((out / 'report.json').read_text())
     assert data['was_interrupted']
@@ -165,6 +172,20 @@ def test_ctrl_c_keeps_what_is_done(tmp_path):
     assert f'interrupted: {len(data["runs"])} of 500 runs are done' in program.output
     assert 'Traceback' not in program.output
     until(lambda: not any(map(is_there, children)))
+
+
+def test_ctrl_c_while_failures_are_recorded_is_said(tmp_path, monkeypatch):
+    gather = runner._gathered
+    calls = []
+
+    def interrupted(results, total, progress):
+        calls.append(total)
+        return gather(results, total, progress) if len(calls) == 1 else ({}, True)
+
+    monkeypatch.setattr(runner, '_gathered', interrupted)
+    report = trials(named('slippery'), 2, workers=1, bags=tmp_path / 'bags')
+    assert report.was_interrupted
+    assert len(report.runs) == report.total == 4
 
 
 def test_processes_end_with_who_started_them():

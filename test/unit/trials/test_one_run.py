@@ -152,3 +152,14 @@ def test_a_run_that_hangs_in_a_thread_is_ended(here):
     kinds = [run.kind for run in report.runs]
     assert kinds == [*[Ending.PASSED] * 3, Ending.HUNG] * 2
     assert report.runs[3].message == 'not done after 1 s'
+
+
+def test_a_trial_may_close_its_simulation(here):
+    report = trials(named('closes'), 2, executor=here)
+    assert [run.message for run in report.bad] == []
+    assert len({run.bits for run in report.runs}) == 1
+
+
+def test_no_message_paints_on_the_terminal(here):
+    (run,) = trials(named('paints'), 1, executor=here).bad
+    assert run.message.endswith('ValueError: \\x1b[31mred')

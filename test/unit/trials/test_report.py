@@ -97,7 +97,7 @@ def test_junit_has_a_case_for_each_run():
     suite = ElementTree.fromstring(report_of(*kinds, seconds=1.5).to_junit()).find('testsuite')
     assert (suite.get('tests'), suite.get('failures'), suite.get('errors')) == ('4', '1', '2')
     assert [each.tag for case in suite for each in case] == ['failure', 'error', 'error']
-    assert suite[1][0].get('message') == '<why> & how?'
+    assert suite[1][0].get('message') == r'<why> & how\x07'
     assert '--only 1' in suite[1][0].text
     assert suite[0].get('time') == '0.250'
 
