@@ -7,7 +7,7 @@ In a recording of the simulator it is a latched message on :data:`TOPIC`
 (``std_msgs/msg/String``), which is in the recording only, in JSON::
 
     {"parameters": {"world": "ramp"},          # of mujoco_sim, where they are not the defaults
-     "controllers": "controller_manager: …",   # the parameter file, as a text; or empty
+     "controllers": "controller_manager: …",   # the parameter file, as a text; or empty, or a list
      "robots": [{"name": "amr", "namespace": "/", "position": [0, 0, 0], "rotation": [0, 0, 0, 1],
                  "description": "<robot …"}],
      "commands": ["/diff_drive_controller/cmd_vel"]}  # which act, at the times of their messages
@@ -47,7 +47,8 @@ class RunDescription:
     """See the module."""
 
     parameters: Mapping[str, Any] = field(default_factory=dict)
-    controllers: str = ''
+    controllers: tuple[str, ...] = ()
+    """Texts of the parameter files."""
     robots: tuple[RunRobot, ...] = ()
     commands: tuple[str, ...] = ()
     """Topics of which the messages are those that controllers have acted on."""
@@ -64,9 +65,10 @@ class RunDescription:
             }
             for each in self.robots
         ]
+        texts = self.controllers
         node = {
             'parameters': dict(self.parameters),
-            'controllers': self.controllers,
+            'controllers': list(texts) if len(texts) > 1 else ''.join(texts),
             'robots': robots,
             'commands': list(self.commands),
         }
@@ -87,9 +89,11 @@ def from_text(text: str) -> RunDescription:
             )
             for each in node['robots']
         ]
+        given = node['controllers']
+        texts = given if isinstance(given, list) else [given]
         return RunDescription(
             dict(node['parameters']),
-            str(node['controllers']),
+            tuple(str(each) for each in texts if each),
             tuple(robots),
             tuple(str(each) for each in node['commands']),
         )

@@ -268,7 +268,7 @@ def simulation_of(
     Args:
         kind: Makes one, in this process or over ROS: its class.
         run: From a bag.
-        folder: For the parameter file of the controllers, as long as the simulation runs.
+        folder: For the parameter files of the controllers, as long as the simulation runs.
         **options: Further arguments of it.
 
     Raises:
@@ -287,18 +287,20 @@ def simulation_of(
         options['robots'] = poses
     else:
         options |= {'name': first.name, 'pose': poses[first.name]}
-    controllers, activate = None, []
-    if run.description.controllers:
-        controllers = folder / 'controllers.yaml'
-        controllers.write_text(run.description.controllers, encoding='utf-8')
+    controllers, activate = [], list[str]()
+    for number, text in enumerate(run.description.controllers):
+        path = folder / f'controllers{number or ""}.yaml'
+        path.write_text(text, encoding='utf-8')
+        controllers.append(path)
+    if controllers:
         model = parse_urdf(first.description)
         namespace, manager = manager_of(model)
         inside = first.namespace if first.namespace != '/' else namespace
-        declared = declared_controllers([controllers], inside, manager)
+        declared = declared_controllers(controllers, inside, manager)
         activate = [each.name for each in declared if each.name in run.active]
     return kind(
         first.description,
-        controllers,
+        controllers or None,
         activate=activate if controllers else None,
         parameters=dict(run.description.parameters),
         **options,

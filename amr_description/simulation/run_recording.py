@@ -22,6 +22,7 @@ from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.parameter_files import file_names
 from amr_description.parameters import specs
 from amr_description.simulation.parameters import SimulationParameters
 from amr_description.simulation.topics.link_transforms import (
@@ -305,24 +306,24 @@ def describe_run(
         for each in robots
     )
     first = robots[0].robot if robots else None
-    return RunDescription(changed, controllers_text(value_of('controllers'), first), described)
+    return RunDescription(changed, controllers_texts(value_of('controllers'), first), described)
 
 
-def controllers_text(path: str, robot: Robot | None) -> str:
+def controllers_texts(given: str, robot: Robot | None) -> tuple[str, ...]:
     """
-    Return the parameter file of the controllers; empty: the URDF names several, or none.
+    Return the parameter files of the controllers; none: there are none any more.
 
     Args:
-        path: of the file; empty: what the URDF names.
+        given: names of files between commas; empty: what the URDF names.
         robot: of the run.
     """
-    paths = [Path(path)] if path else []
-    if not path and robot is not None and len(hardware_of(robot)) > len(robot.plugin_hardware):
+    paths = [Path(each) for each in file_names(given)]
+    if not paths and robot is not None and len(hardware_of(robot)) > len(robot.plugin_hardware):
         paths = files_of(robot)
     try:
-        return paths[0].read_text(encoding='utf-8') if len(paths) == 1 else ''
-    except OSError:  # it was there when the robot was spawned
-        return ''
+        return tuple(path.read_text(encoding='utf-8') for path in paths)
+    except OSError:  # they were there when the robot was spawned
+        return ()
 
 
 def _message(text: str) -> bytes:

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Of what a recorded run consists, as it is in a bag; the hashes of types."""
 
+from dataclasses import replace
+
 import pytest
 
 from amr_description.bag.run_description import from_text, RunDescription, RunRobot
@@ -10,14 +12,16 @@ from amr_description.errors import BagError
 
 RUN = RunDescription(
     {'world': 'ramp', 'seed': 3},
-    'controller_manager: {}',
+    ('controller_manager: {}',),
     (RunRobot('amr', '/', (0.1, 0.2, 1 / 3), (0.0, 0.0, 0.6, 0.8), '<robot name="ä"/>'),),
     ('/cmd_vel',),
 )
 
 
-def test_it_is_read_as_it_was_written():
-    assert from_text(RUN.to_text()) == RUN
+@pytest.mark.parametrize('files', [(), ('controller_manager: {}',), ('a: {}', 'b: {}')])
+def test_it_is_read_as_it_was_written(files):
+    run = replace(RUN, controllers=files)
+    assert from_text(run.to_text()) == run
 
 
 @pytest.mark.parametrize('text', ['', '[]', '{}', RUN.to_text().replace('0.6, 0.8', '0.6')])

@@ -170,6 +170,18 @@ def test_a_fleet_is_driven_again(tmp_path):
     assert differences(run, again(tmp_path, run)) == []
 
 
+def test_all_parameter_files_are_in_the_bag(tmp_path):
+    more = tmp_path / 'more.yaml'
+    more.write_text('diff_drive_controller:\n  ros__parameters:\n    wheel_radius: 0.09\n')
+    given = [ROOT / 'config' / 'controllers.yaml', more]
+    with Simulation(AMR, given, record=tmp_path / 'bag') as sim:
+        sim.drive(0.5, 0.2, seconds=0.5)
+    run = read_run(tmp_path / 'bag')
+    more.unlink()
+    assert len(run.description.controllers) == 2
+    assert differences(run, again(tmp_path, run)) == []
+
+
 def test_what_was_changed_differs(tmp_path):
     with Simulation(AMR, record=tmp_path / 'bag') as sim:
         sim.drive(0.5, 0.2, seconds=0.5)
