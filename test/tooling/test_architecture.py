@@ -34,12 +34,12 @@ FEW_LINES = 80
 # motions, the geometry of plugins, dialects of vendors), and trials with their faults and seeds.
 BUDGETS = {
     'modules': 842,
-    'code lines': 93_131,
+    'code lines': 93_137,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_971,
+    'code lines of helpers in test files': 25_972,
 }
 
 BASE = {
