@@ -11,10 +11,13 @@ import xml.etree.ElementTree as ElementTree
 from releasing import ReleaseError
 
 CHANGELOG = 'CHANGELOG.md'
+_VERSION = r'^version *= *"([^"]+)"'
 _ELSEWHERE = {
-    'pyproject.toml': r'^version *= *"([^"]+)"',
-    'interfaces/pyproject.toml': r'^version *= *"([^"]+)"',
+    'pyproject.toml': ('pyproject.toml', _VERSION),
+    'the extra [ros] of pyproject.toml': ('pyproject.toml', r'"amr-description-ros *== *([^"]+)"'),
+    'interfaces/pyproject.toml': ('interfaces/pyproject.toml', _VERSION),
 }
+"""Name of a place → its file, and what it says."""
 _HEADING = re.compile(r'^## (?P<version>\S+)(?: \((?P<date>[^)]*)\))? *$', re.MULTILINE)
 
 
@@ -28,10 +31,10 @@ class Section(NamedTuple):
 
 
 def declared_versions(root: Path) -> dict[str, str]:
-    """Return the version that each file names, by its path. Raises ReleaseError: none in one."""
+    """Return the version that each place names, by its name. Raises ReleaseError: none in one."""
     found = {'package.xml': ElementTree.parse(root / 'package.xml').findtext('version') or ''}
-    for name, pattern in _ELSEWHERE.items():
-        match = re.search(pattern, (root / name).read_text(encoding='utf-8'), re.MULTILINE)
+    for name, (file, pattern) in _ELSEWHERE.items():
+        match = re.search(pattern, (root / file).read_text(encoding='utf-8'), re.MULTILINE)
         found[name] = match[1] if match else ''
     for name, version in found.items():
         if not version:

@@ -46,7 +46,10 @@ CHANGELOG = """# Changelog
 - Old.
 """
 LIBRARY = 'libtf2_msgs__rosidl_typesupport_fastrtps_c.so'
-DECLARED = dict.fromkeys(('package.xml', 'pyproject.toml', 'interfaces/pyproject.toml'), '0.2.0')
+EXTRA = 'the extra [ros] of pyproject.toml'
+DECLARED = dict.fromkeys(
+    ('package.xml', 'pyproject.toml', EXTRA, 'interfaces/pyproject.toml'), '0.2.0'
+)
 WHEEL = b'Wheel-Version: 1.0\nRoot-Is-Purelib: false\nTag: cp312-cp312-linux_x86_64\n\n'
 NEEDS = """
 a.so:     file format elf64-x86-64
@@ -82,6 +85,7 @@ def test_every_file_names_the_same_version():
             None,
             'different versions: 0.2.0 in package.xml, 0.1.0',
         ),
+        ({EXTRA: '0.1.0'}, None, '0.1.0 in the extra [ros] of pyproject.toml'),
         ({}, '0.3.0', 'asked for 0.3.0, found 0.2.0 in package.xml'),
         (dict.fromkeys(DECLARED, '0.2'), '0.2', '0.2 is no version MAJOR.MINOR.PATCH'),
     ],
@@ -131,7 +135,8 @@ def checkout(tmp_path):
     root = tmp_path / 'repository'
     files = {
         'package.xml': '<package><version>0.2.0</version></package>',
-        'pyproject.toml': '[project]\nversion = "0.2.0"\n',
+        'pyproject.toml': '[project]\nversion = "0.2.0"\n'
+        '[project.optional-dependencies]\nros = ["amr-description-ros==0.2.0"]\n',
         'interfaces/pyproject.toml': '[project]\nversion = "0.2.0"\n',
         'CHANGELOG.md': CHANGELOG,
         'README.md': '# x\n',
