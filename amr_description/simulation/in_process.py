@@ -23,7 +23,7 @@ import math
 from pathlib import Path
 from typing import Any, TYPE_CHECKING
 
-from amr_description.control.contracts import Action, Goal, Input, Port, Service
+from amr_description.control.contracts import Action, Goal, Input, Service
 from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError
@@ -51,6 +51,7 @@ from amr_description.simulation.topics.link_transforms import SpawnedRobot
 from amr_description.simulation.tracebacks import is_for_the_test
 
 if TYPE_CHECKING:  # most simulations neither drive a bag again nor serve the page
+    from amr_description.messages.commands import PlainCommand
     from amr_description.simulation.recorded_run import RecordedRun
     from amr_description.simulation.shown import ShownPage
 
@@ -243,20 +244,24 @@ class Simulation(SimulationApi[Robot]):
 
         A message is a sample, or a dict in the form of the message.
         """
-        found = {topic: self._ports_of(Input, topic) for topic in messages}  # before any is sent
         from amr_description.messages.commands import command_of  # with samples of all kinds
 
         time = self.world.time
-        for topic, inputs in found.items():
-            message = messages[topic]
-            make = partial(command_of, message=message, time=time)
-            self.altered.send(partial(self._put, topic, inputs, make))
+        made = {  # before any is sent, and whatever becomes of the messages meanwhile
+            topic: [
+                (each, command_of(each.port, message, time))
+                for each in self._ports_of(Input, topic)
+            ]
+            for topic, message in messages.items()
+        }
+        for topic, commands in made.items():
+            self.altered.send(partial(self._put, topic, commands))
 
     def _repeat(self, topic: str, message: Any) -> None:
         from amr_description.messages.commands import recorded_command
 
-        make = partial(recorded_command, message=message)
-        self._put(topic, self._ports_of(Input, topic), make)
+        inputs = self._ports_of(Input, topic)
+        self._put(topic, [(each, recorded_command(each.port, message)) for each in inputs])
 
     def call(self, service: str, request: Any = NO_FIELDS) -> Any:
         """
@@ -331,12 +336,11 @@ class Simulation(SimulationApi[Robot]):
             )
         return found
 
-    def _put(self, topic: str, inputs: Iterable[Input[Any]], make: Callable[[Port], Any]) -> None:
-        """Send what ``make`` makes a ``Command`` for a port of."""
+    def _put(self, topic: str, commands: Iterable[tuple[Input[Any], 'PlainCommand']]) -> None:
+        """Send a command to each input of a topic."""
         time, taken = self.world.time, False
         reasons: list[str] = []
-        for each in inputs:
-            command = make(each.port)
+        for each, command in commands:
             reason = each.check(command.sample, time) if each.check else ''
             if reason:
                 reasons.append(reason)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.paths import ROOT
 
-from amr_description.errors import SimulationError, TrialsError
+from amr_description.errors import AmrError, SimulationError, TrialsError
 from amr_description.model.frames import Transform
 from amr_description.trials import faults, variations
 from amr_description.trials.one_run import Simulations
@@ -240,3 +240,15 @@ def test_robots_come_and_go_before_the_model_is_changed():
         variations.scale_mass(sim, 1.1)
     variations.scale_mass(sim, 1.1, robot='other')
     sim.close()
+
+
+def test_a_late_command_is_that_which_was_sent(simulate):
+    sim = simulate(URDF)
+    faults.delay_commands(sim, 0.1)
+    message = {'twist': {'linear': {'x': 0.5}}}
+    sim.send(sim.robot.command_topic, message)
+    message['twist']['linear']['x'] = -0.5
+    with pytest.raises(AmrError, match='fast'):
+        sim.send(sim.robot.command_topic, {'twist': {'linear': {'x': 'fast'}}})
+    sim.run(0.4)
+    assert sim.truth.x > 0.05
