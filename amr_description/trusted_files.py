@@ -78,6 +78,9 @@ def distrust_new(path: Path, place: Path) -> str:
     """
     try:
         real = (place / path).resolve()
+        for each in real.parents:  # from Python 3.13 on resolve() lets links in a circle pass
+            if os.path.lexists(each):
+                each.stat()
     except (OSError, ValueError, RuntimeError):  # no such name can be, or links in a circle
         return f'is no name that a folder can have; what would do: a name below {place}'
     if real == place or not real.is_relative_to(place):

@@ -81,6 +81,11 @@ if __name__ == '__main__':
     root = Path(__file__).resolve().parents[2]
     try:
         changed = changed_paths(root)
+    except FileNotFoundError:
+        sys.exit(
+            'scripts/test --changed: there is no git here, which knows what has changed; '
+            'name the tests instead, as in scripts/test unit'
+        )
     except (OSError, subprocess.CalledProcessError) as error:
         said = (getattr(error, 'stderr', None) or str(error)).strip().splitlines()[-1]
         sys.exit(

@@ -8,6 +8,7 @@ import sys
 
 from environment.changed_tests import affected_tests, changed_paths
 import pytest
+from support.needs import need_program
 from support.paths import ROOT
 
 
@@ -41,6 +42,7 @@ def test_the_folders_mirror_the_package(changed, tests):
 def test_what_git_does_not_know_is_one_line(tmp_path):
     scripts = tmp_path / 'scripts/environment'
     scripts.mkdir(parents=True)
+    need_program('git', 'git')
     program = scripts / 'changed_tests.py'
     program.write_text((ROOT / 'scripts/environment/changed_tests.py').read_text())
     ended = subprocess.run(
@@ -54,7 +56,22 @@ def test_what_git_does_not_know_is_one_line(tmp_path):
     assert 'git does not know what has changed here: fatal: not a git repository' in line
 
 
+def test_without_git_is_one_line(tmp_path):
+    program = ROOT / 'scripts' / 'environment' / 'changed_tests.py'
+    ended = subprocess.run(
+        [sys.executable, '-ES', program],
+        capture_output=True,
+        text=True,
+        env={'PATH': str(tmp_path)},
+    )
+    assert (ended.returncode, ended.stdout) == (1, '')
+    (line,) = ended.stderr.splitlines()
+    assert 'there is no git here' in line
+
+
 def test_committed_edited_and_new_files_count(tmp_path):
+    need_program('git', 'git')
+
     def git(*words):
         identity = ['-c', 'user.name=a', '-c', 'user.email=a@b']
         subprocess.run(['git', '-C', tmp_path, *identity, *words], check=True)

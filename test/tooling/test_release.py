@@ -132,6 +132,7 @@ def test_the_front_page_may_not_say_that_it_is_not_released():
 @pytest.fixture
 def checkout(tmp_path):
     """A small repository of version 0.2.0, committed, and a function that calls git in it."""
+    need_program('git', 'git')
     root = tmp_path / 'repository'
     files = {
         'package.xml': '<package><version>0.2.0</version></package>',

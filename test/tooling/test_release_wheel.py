@@ -20,6 +20,7 @@ from environment import launchers
 from environment.locks import pinned_versions
 import pytest
 from releasing import archives, package_wheel
+from support.needs import need_program
 from support.paths import PROJECT, ROOT
 from support.running_programs import Program
 
@@ -39,6 +40,7 @@ OF_COLCON = (
 @pytest.fixture(scope='module')
 def wheels(tmp_path_factory):
     """The files of the wheels without ROS and of ROS, by their paths in them."""
+    need_program('git', 'git')
     folder = tmp_path_factory.mktemp('release')
     built = package_wheel.build(ROOT, ROOT / '.venv', folder, 1700000000, os.environ)
     assert [path.name.partition('-')[0] for path in built] == [NAME, f'{NAME}_ros']

@@ -244,7 +244,8 @@ def test_closing_the_terminal_stops_the_robot(robot, teleop):
 
 def test_a_fault_stops_the_robot_and_restores_the_terminal(robot):
     robot.listen()
-    with Program.of(FAULTY, terminal=True) as program:
+    # From 3.13 on Python colours what it says of a fault.
+    with Program.of(FAULTY, terminal=True, env={'PYTHON_COLORS': '0'}) as program:
         before = termios.tcgetattr(program.terminal)
         program.expect('currently:\tspeed')
         robot.until(lambda: program.type('i') or (0.5, 0.0) in robot.commands)
