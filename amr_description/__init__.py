@@ -33,6 +33,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``interface_build/``    message packages: what CMake of a workspace calls, and wheels of them
 ``testing/``            a simulation in lock-step, for tests of users
 
+``gym.py``              a robot with its controllers as an environment of Gymnasium, without ROS
 ``errors.py``           every error that is raised on purpose
 ``log.py``              how a component logs; lines that come again and again
 ``plugin_errors.py``    exceptions of third-party controllers and components, as log lines

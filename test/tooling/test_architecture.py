@@ -31,15 +31,16 @@ FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it. The last to
 # raise them were simulations without ROS (recordings, services, actions, frames, replays, films,
 # the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
-# motions, the geometry of plugins, dialects of vendors), and trials with their faults and seeds.
+# motions, the geometry of plugins, dialects of vendors), and trials with their faults and seeds,
+# and robots as environments to learn in.
 BUDGETS = {
-    'modules': 842,
-    'code lines': 93_137,
+    'modules': 843,
+    'code lines': 93_352,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 25_972,
+    'code lines of helpers in test files': 26_051,
 }
 
 BASE = {
@@ -52,6 +53,7 @@ BASE = {
 ARROWS = {
     'amr_description': {'simulation'},  # what users import from it, when they do
     '__main__': set(),
+    'gym': {'simulation', 'model'},
     'base': set(),
     'model': set(),
     'control': {'model'},
@@ -414,7 +416,8 @@ def needed_by_the_simulation() -> set[str]:
     arrows: dict[str, set[str]] = {}
     for module, _, _, name in own_imports():
         arrows.setdefault(module, set()).update(with_parents(name))
-    needed = {module for module in SOURCES if room_of(module) in ('simulation', 'trials')}
+    rooms = ('simulation', 'trials', 'gym')
+    needed = {module for module in SOURCES if room_of(module) in rooms}
     waiting = list(needed)
     while waiting:
         found = arrows.get(waiting.pop(), set()) - needed

@@ -59,7 +59,12 @@ def test_the_page_runs_as_it_stands(python, number, tmp_path):
 def test_a_part_of_the_tests_runs_there(monkeypatch):
     """All of it: ``scripts/test engine``, which CI runs."""
     monkeypatch.delenv('PYTEST_ADDOPTS', raising=False)  # colcon's, for this run
-    assert engine.main(['-q', 'test/unit/simulation', 'test/unit/control/test_loop.py']) == 0
+    parts = [
+        'test/unit/simulation',
+        'test/unit/control/test_loop.py',
+        'test/unit/base/test_gym.py',
+    ]
+    assert engine.main(['-q', *parts]) == 0
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,12 @@ ELSEWHERE = {
     ('benchmarks.md', 'source scripts/activate; python -m benchmarks.cycle'): (
         'test/ros/benchmarks/test_parts.py'
     ),
+    ('learning.md', 'python examples/learn_to_drive.py'): (
+        'test/unit/base/test_gym.py'  # learns for three generations
+    ),
+    ('learning.md', "python -m pip install 'amr-description[gym]'"): (
+        'test/system/docs/test_docs_pip_without_ros.py'  # without the extra
+    ),
     ('install.md', 'scripts/setup'): 'test/tooling/test_setup.py',
     ('navigation.md', 'scripts/run navigation urdf:='): (
         'test/unit/bringup/test_bringup_navigation.py'
