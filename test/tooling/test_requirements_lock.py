@@ -31,12 +31,14 @@ LEFT_OUT = {canonical(name) for name in re.findall(r'^# without (\S+)$', LOCK, r
 
 
 def installed():
-    """Distributions by name; the ROS wheels carry a second, older record beside their own."""
-    return {
-        canonical(found.metadata['Name']): found
-        for found in distributions(path=[sysconfig.get_path('purelib')])
-        if found._path.name.endswith('.dist-info')
-    }
+    """
+    Distributions by name; the ROS wheels carry a second, older record beside their own.
+
+    An old pip leaves only such a one of what it has built from sources.
+    """
+    found = [*distributions(path=[sysconfig.get_path('purelib')])]
+    found.sort(key=lambda each: each._path.name.endswith('.dist-info'))
+    return {canonical(each.metadata['Name']): each for each in found}
 
 
 def required(name, found, extras=frozenset()):

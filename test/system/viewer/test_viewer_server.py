@@ -8,6 +8,7 @@ from pathlib import Path
 import re
 import signal
 import socket
+import sys
 from urllib.parse import urlsplit
 
 import pytest
@@ -24,6 +25,8 @@ from amr_description.viewer.pages import MOST_PAGES
 
 URL = re.compile(r'The page is at (http://\S+)')
 ROSOUT = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+MOST_HELD = 110 if sys.version_info >= (3, 12) else 290
+"""Answers in memory of 300 unread ones; before 3.12 asyncio copies each, and holes are left."""
 DRIVE = '{"type": "drive", "robot": "/", "linear": 0.1, "angular": 0}'
 
 
@@ -281,7 +284,7 @@ def test_who_reads_no_answer_costs_no_more_than_some_that_do(program, url, page)
             unread.append(each)
             peak = max(peak, resident(program))
         assert ask(url, path='/main.js')[0] == 200
-        assert peak - before < 110 * size, 'of 300 answers'
+        assert peak - before < MOST_HELD * size, 'of 300 answers'
         assert complete(unread[-1])
         assert not complete(unread[0]), 'the oldest had to go'
 
