@@ -191,10 +191,11 @@ def test_a_block_of_the_page_holds(block, capsys):
 
 @needs_gymnasium
 def test_what_is_learned_is_better_than_what_is_drawn(tmp_path):
+    program = [sys.executable, ROOT / 'examples' / 'learn_to_drive.py']
+    options = ['--generations', '2', '--population', '8']
     done = subprocess.run(
-        [sys.executable, ROOT / 'examples' / 'learn_to_drive.py', *['--generations', '2', '--population', '8']],
-        cwd=tmp_path, text=True, capture_output=True, timeout=600,
-    )  # fmt: skip
+        [*program, *options], cwd=tmp_path, text=True, capture_output=True, timeout=600
+    )
     assert done.returncode == 0, done.stderr
     scores = [float(line.split()[2].rstrip(',')) for line in done.stdout.splitlines()[:2]]
     assert scores[1] > scores[0]
