@@ -43,6 +43,7 @@ _ACTIVE: Mapping[ActuatorMode, Sequence[str]] = {
     ActuatorMode.FREE: (),
 }
 """The active actuators of each mode; see :mod:`amr_description.sim.actuators`."""
+NO_TARGETS: Mapping[str, float] = {}
 
 
 class RobotActuators:
@@ -88,14 +89,28 @@ class RobotActuators:
                 self._commanders[name] = commander
                 self.changes += 1
 
-    def hold(self, joints: Iterable[str]) -> None:
-        """Hold joints; one that has slipped meanwhile is pulled back."""
+    def hold(
+        self, joints: Iterable[str], targets: Mapping[str, float] = NO_TARGETS
+    ) -> Mapping[str, float]:
+        """
+        Hold joints; one that has slipped meanwhile is pulled back.
+
+        Args:
+            joints: Their names.
+            targets: Where each is held, rad or m; one without: where it stops.
+
+        Returns:
+            The targets of those that a spring holds.
+        """
         joints = tuple(joints)
         self.switch(joints, ActuatorMode.HELD)
+        held: dict[str, float] = {}
         for name in joints:
             actuators = self._joints.get(name)
             if actuators is not None and not math.isnan(actuators.target):
+                held[name] = actuators.target = targets.get(name, actuators.target)
                 actuators.pull_to_target()
+        return held
 
 
 class JointActuators:

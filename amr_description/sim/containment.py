@@ -20,15 +20,18 @@ from amr_description.sim.engine import Engine
 
 _ARMATURE = 1e12
 """kg·m² or kg, added to each degree of freedom of what is frozen: 1 kN gives it 1e-9 m/s²."""
+_OF_WORLD = '/'
+"""How a key begins that is no robot's name."""
 
 
 @dataclass(frozen=True)
 class _Frozen:
-    """A robot that is frozen: indices into ``qpos`` and ``qvel``, and its positions."""
+    """A robot that is frozen: indices into ``qpos`` and ``qvel``, its positions, its joints."""
 
     positions: np.ndarray
     values: np.ndarray
     dofs: np.ndarray
+    joints: Sequence[int]
 
 
 class Containment:
@@ -65,7 +68,8 @@ class Containment:
         if np.isfinite(data.qpos).all() and np.isfinite(data.qvel).all():
             self.keep(self._engine.time)
         for robot, frozen in before.items():
-            joints = _joints_of(model, robot)
+            # What belongs to the file of the world comes before all robots, and may have no name.
+            joints = frozen.joints if robot.startswith(_OF_WORLD) else _joints_of(model, robot)
             if len(joints):
                 self._fix(robot, joints, frozen.values)
 
@@ -95,7 +99,7 @@ class Containment:
         data.act[:] = self._kept_activations
         data.qacc[:] = data.qacc_warmstart[:] = data.qfrc_applied[:] = 0.0
         joints = _joints_of(model, robot) if robot else _joints_of_tree(model, dof)
-        key = robot or f'/{int(model.dof_treeid[dof])}'
+        key = robot or f'{_OF_WORLD}{joints[0]}'
         if key not in self._frozen:
             self._fix(key, joints, None)
         self.hold()
@@ -133,7 +137,7 @@ class Containment:
         model.dof_armature[dofs] += _ARMATURE
         model.dof_M0[dofs] += _ARMATURE  # what the mass of simple bodies is taken from
         self._frozen[robot] = _Frozen(
-            positions, data.qpos[positions] if values is None else values, dofs
+            positions, data.qpos[positions] if values is None else values, dofs, joints
         )
 
 

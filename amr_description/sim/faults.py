@@ -187,6 +187,11 @@ class FaultMonitor:
         self._first_axes: dict[str, np.ndarray] = {}
         self._next_slow_check = 0
 
+    @property
+    def lost(self) -> tuple[str, ...]:
+        """What is frozen since its physics was lost: robots by name, things of the world."""
+        return self._containment.frozen
+
     def release(self, robot: str = '') -> None:
         """Let a robot, or all that is frozen, move again: it was put elsewhere, or reset."""
         if self._containment.holds:

@@ -7,7 +7,7 @@ The joints are bound once to views into MuJoCo's arrays. A read is then one slic
 ``tolist()``, well below 1 µs; access by name costs 10 µs.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import math
 from operator import itemgetter
 from typing import Any, TypeAlias
@@ -19,7 +19,12 @@ from amr_description.control.interfaces import EFFORT, POSITION, VELOCITY
 from amr_description.errors import SimulationError
 from amr_description.log import Log, Severity
 from amr_description.model.robot import Joint
-from amr_description.sim.actuator_modes import ActuatorMode, EffortReader, RobotActuators
+from amr_description.sim.actuator_modes import (
+    ActuatorMode,
+    EffortReader,
+    NO_TARGETS,
+    RobotActuators,
+)
 from amr_description.sim.actuators import actuator_name, command_bounds, COMMANDS, rotor_name
 from amr_description.sim.engine import Engine
 
@@ -126,11 +131,15 @@ class MujocoJointGroup:
         lasts = values is given and all(values)
         self._written = list(values) if lasts else None
 
-    def hold(self) -> None:
-        """Stop the joints and hold them where they stop."""
+    def hold(self, targets: Mapping[str, float] = NO_TARGETS) -> Mapping[str, float]:
+        """
+        Stop the joints and hold them where they stop, or at targets, rad or m; return those.
+
+        Who holds them again and again, against others, gives what the first call has returned.
+        """
         if self._generation != self._engine.generation:
             self._bind()
-        self._actuators.hold(self._names)
+        return self._actuators.hold(self._names, targets)
 
     def release(self) -> None:
         """Let the joints move freely: no actuator exerts a force."""

@@ -127,6 +127,8 @@ class SimulatedLidar:
         self._robot = robot
         self._shape = (lidar.vertical.samples, lidar.horizontal.samples)
         self._binding: _Binding | None = None
+        self._drawn: tuple[tuple[int, ...], float] | None = None
+        """The bias of a seed."""
         mount = lidar.mount.pose
         self._offset = np.array(mount.translation)
         self._turned = ray_directions(lidar) @ np.array(matrix_from_quaternion(mount.rotation)).T
@@ -184,13 +186,16 @@ class SimulatedLidar:
         return distances
 
     def _bias(self) -> float:
-        """Draw the bias, the same for a seed; see :class:`~amr_description.model.gazebo.Noise`."""
-        noise = self.lidar.noise
+        """Return the bias, the same for a seed; see :class:`~amr_description.model.gazebo.Noise`."""
+        noise, seed = self.lidar.noise, self._robot.seed
         if not (noise.bias_mean or noise.bias_stddev):
             return 0.0
-        generator = noise_generator(self._robot.seed, self.lidar.mount.path, -1)
-        draw, sign = generator.standard_normal(2).tolist()
-        return math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
+        if self._drawn is None or self._drawn[0] != seed:
+            generator = noise_generator(seed, self.lidar.mount.path, -1)
+            draw, sign = generator.standard_normal(2).tolist()
+            bias = math.copysign(1.0, sign) * (noise.bias_mean + noise.bias_stddev * draw)
+            self._drawn = seed, bias
+        return self._drawn[1]
 
     def _rays(self, body: int, scene: RayScene) -> tuple[Floats, Floats]:
         """Return origin and directions in the world."""

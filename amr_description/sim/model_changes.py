@@ -8,7 +8,8 @@ spec is not changed: after a recompile, as when a robot comes or goes, nothing w
 them. So :meth:`ModelChanges.require_none` refuses that.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from copy import copy
 import math
 from typing import Any
 
@@ -23,7 +24,7 @@ from amr_description.sim.entity_state import pose_of, set_state
 from amr_description.sim.robot_view import RobotView
 from amr_description.text import quote_all
 
-_STATISTIC = ('extent', 'meaninertia', 'meanmass', 'meansize')
+_STATISTIC = ('center', 'extent', 'meaninertia', 'meanmass', 'meansize')
 _ROUND = (
     mujoco.mjtGeom.mjGEOM_SPHERE,
     mujoco.mjtGeom.mjGEOM_CAPSULE,
@@ -37,12 +38,12 @@ _SLIDING = 2
 class ModelChanges:
     """What is changed of one engine's model; see the module."""
 
-    def __init__(self, engine: Engine) -> None:
-        """Change nothing yet."""
-        self._engine = engine
+    def __init__(self, engine: Engine, lost: Callable[[], Sequence[str]]) -> None:
+        """``lost``: returns the robots whose physics was lost, which has changed the model, too."""
+        self._engine, self._lost = engine, lost
         self._before: dict[str, npt.NDArray[Any]] = {}
         """All arrays of the model: what follows from a mass, MuJoCo knows."""
-        self._statistic: dict[str, float] = {}
+        self._statistic: dict[str, Any] = {}
         self._gravity: npt.NDArray[np.float64] | None = None
 
     def __bool__(self) -> bool:
@@ -146,12 +147,16 @@ class ModelChanges:
         """Remember the model as it is before the first change."""
         if self._gravity is not None:
             return
+        if lost := self._lost():
+            raise SimulationError(
+                f'the physics of {quote_all(lost)} is lost: the model is changed after reset()'
+            )
         model = self._engine.model
         arrays = {name: getattr(model, name) for name in dir(model) if name[0] != '_'}
         self._before = {
             name: array.copy() for name, array in arrays.items() if isinstance(array, np.ndarray)
         }
-        self._statistic = {name: getattr(model.stat, name) for name in _STATISTIC}
+        self._statistic = {name: copy(getattr(model.stat, name)) for name in _STATISTIC}
         self._gravity = model.opt.gravity.copy()
 
     def _require_above_zero(self, what: str, factor: float) -> None:

@@ -129,6 +129,7 @@ class MujocoWorld:
             self.engine.load(spec, longest)
         self.longest_step, self._surfaces = longest, static_surfaces(spec)
         self._contacts.clear()  # gravity may be another
+        self.faults.release()
         self.faults.reset()
 
     def _read(self, world: str) -> mujoco.MjSpec:

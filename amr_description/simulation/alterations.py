@@ -9,10 +9,11 @@ where a scan is read, at the end of a cycle, in the compiled model.
 """
 
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast, TYPE_CHECKING
 
 from amr_description.control.contracts import HardwareComponent, Log, Severity
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.loaded_component import LoadedComponent
 from amr_description.control.loop import Loop
@@ -34,22 +35,29 @@ class Alterations:
     """All that is changed of one simulation; see the module."""
 
     def __init__(
-        self, world: MujocoWorld, loop: Loop, observers: list[Callable[[int], None]], log: Log
+        self,
+        world: MujocoWorld,
+        loop: Loop,
+        manager_of: Callable[[str], ControllerManager | None],
+        observers: list[Callable[[int], None]],
+        log: Log,
     ) -> None:
         """
         Change nothing yet.
 
         Args:
             world: The physics.
-            loop: With the managers of all robots.
+            loop: Of the simulation.
+            manager_of: Returns that of a robot; None: it has none.
             observers: Called at the end of each cycle with its time, ns.
             log: Of the simulator.
         """
-        self.model = ModelChanges(world.engine)
+        self.model = ModelChanges(world.engine, lambda: world.faults.lost)
         """Masses, frictions, wheels, gravity."""
         self.scans: dict[str, list[Callable[[Scan], Scan]]] = {}
         """By the names of robots: what is made of a scan that is read."""
         self._world, self._loop, self._observers, self._log = world, loop, observers, log
+        self._manager_of = manager_of
         self._altered: list[tuple[LoadedComponent, HardwareComponent]] = []
         self._on_cycle: list[Callable[[int], None]] = []
         self._dispatches: list[Dispatch] = []
@@ -77,27 +85,33 @@ class Alterations:
 
     # --- hardware -----------------------------------------------------------------------------
 
-    def states(self, name: str) -> Mapping[LoadedComponent, Sequence[StateInterface]]:
+    def states(
+        self, name: str, robot: str = ''
+    ) -> Mapping[LoadedComponent, Sequence[StateInterface]]:
         """
-        Return state interfaces, and the hardware components that read them.
+        Return state interfaces of a robot, and the hardware components that read them.
 
         Args:
             name: Of an interface, as ``imu/angular_velocity.z``, or of a joint or sensor: all of
                 its interfaces.
+            robot: Its name; empty: the only one.
 
         Raises:
             SimulationError: There is none.
         """
-        return self._found('state', name, lambda loaded: loaded.states)
+        return self._found('state', name, robot, lambda loaded: loaded.states)
 
-    def commands(self, joint: str) -> Mapping[LoadedComponent, Sequence[CommandInterface]]:
+    def commands(
+        self, joint: str, robot: str = ''
+    ) -> Mapping[LoadedComponent, Sequence[CommandInterface]]:
         """Return command interfaces of a joint, or the one of a full name; as :meth:`states`."""
-        return self._found('command', joint, lambda loaded: loaded.commands)
+        return self._found('command', joint, robot, lambda loaded: loaded.commands)
 
     def _found(
-        self, kind: str, name: str, of: Callable[[LoadedComponent], Mapping[str, Any]]
+        self, kind: str, name: str, robot: str, of: Callable[[LoadedComponent], Mapping[str, Any]]
     ) -> Mapping[LoadedComponent, Sequence[Any]]:
-        components = [*self._components()]
+        manager = self._manager_of(self.robot(robot).name)
+        components = [*manager.resources.components.values()] if manager else []
         found = {
             loaded: [each for each in of(loaded).values() if name in (each.name, each.prefix)]
             for loaded in components
@@ -120,10 +134,6 @@ class Alterations:
     ) -> None:
         """Have a call made before each write; what it returns is called after that write."""
         self._altered_component(loaded).around_write.append(call)
-
-    def _components(self) -> Iterator[LoadedComponent]:
-        for manager in self._loop.managers:
-            yield from manager.resources.components.values()
 
     def _altered_component(self, loaded: LoadedComponent) -> '_AlteredComponent':
         if not isinstance(loaded.component, _AlteredComponent):

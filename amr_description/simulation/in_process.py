@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any, TYPE_CHECKING
 
 from amr_description.control.contracts import Action, Goal, Input, Service
+from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.loop import Pacer, Publisher, Stepper
 from amr_description.controller_manager.requests import run_at_once
 from amr_description.errors import SimulationError
@@ -85,9 +86,8 @@ class Simulation(SimulationApi[Robot]):
         self._loop, self.world = self._engine.loop, self._engine.world
         """The physics; for the model and the state of MuJoCo."""
         self._published.loop = self._loop
-        self.altered = Alterations(
-            self.world, self._loop, self._published.publisher.observers, self._log
-        )
+        observers = self._published.publisher.observers
+        self.altered = Alterations(self.world, self._loop, self._manager_of, observers, self._log)
         """What a test changes, until the next reset."""
         self._instruments = Instruments(self.world, settings.camera_renderer, self._log)
         self._playing = Playing(self._rtf or 1.0)
@@ -148,6 +148,11 @@ class Simulation(SimulationApi[Robot]):
         known = SpawnedRobot(given, inside, robot, pose)
         self._published.add(known, translation.sensors)
         return Robot(view, known, namespace, manager, topics, sensors)
+
+    def _manager_of(self, robot: str) -> ControllerManager | None:
+        """Return that of a robot, by the name of its entity; None: it has none."""
+        (found,) = [each.manager for each in self._robots.values() if each.name == robot]
+        return found.requests.manager if found else None
 
     def _start_controllers(self, manager: LocalManager, translation: GazeboTranslation) -> Topics:
         """Start what stands for plugins, then the controllers; return the topics of all."""
@@ -210,6 +215,7 @@ class Simulation(SimulationApi[Robot]):
         self._require_running()
         if seed is not None:
             self.world.seed = seed
+        self.world.faults.release()  # first: what is frozen has changed the model, too
         self.altered.undo()
         self._published.restart()
         self._engine.reset()

@@ -34,7 +34,12 @@ Change: TypeAlias = Callable[[np.ndarray, float], np.ndarray]
 
 
 def drop_sensor(
-    sim: Simulation, sensor: str, *, after: float = 0.0, until: float = math.inf
+    sim: Simulation,
+    sensor: str,
+    *,
+    after: float = 0.0,
+    until: float = math.inf,
+    robot: str = '',
 ) -> None:
     """
     Have a sensor measure nothing: NaN.
@@ -44,6 +49,7 @@ def drop_sensor(
         sensor: A joint, a sensor, one of their interfaces, or ``scan``.
         after: s of simulated time; the fault begins here.
         until: s; it ends here.
+        robot: Its name; empty: the only one.
 
     Raises:
         SimulationError: There is no such sensor.
@@ -52,11 +58,16 @@ def drop_sensor(
     def drop(values: np.ndarray, since: float) -> np.ndarray:
         return np.full_like(values, math.nan)
 
-    _measure(sim, sensor, lambda: drop, after, until)
+    _measure(sim, sensor, lambda: drop, after, until, robot)
 
 
 def freeze_sensor(
-    sim: Simulation, sensor: str, *, after: float = 0.0, until: float = math.inf
+    sim: Simulation,
+    sensor: str,
+    *,
+    after: float = 0.0,
+    until: float = math.inf,
+    robot: str = '',
 ) -> None:
     """Have a sensor repeat what it has measured last; as :func:`drop_sensor`."""
 
@@ -70,11 +81,17 @@ def freeze_sensor(
 
         return freeze
 
-    _measure(sim, sensor, freezing, after, until)
+    _measure(sim, sensor, freezing, after, until, robot)
 
 
 def drift_sensor(
-    sim: Simulation, sensor: str, rate: float, *, after: float = 0.0, until: float = math.inf
+    sim: Simulation,
+    sensor: str,
+    rate: float,
+    *,
+    after: float = 0.0,
+    until: float = math.inf,
+    robot: str = '',
 ) -> None:
     """Have a sensor measure more and more, by ``rate`` a second; as :func:`drop_sensor`."""
     _require_finite('a drift', rate)
@@ -82,7 +99,7 @@ def drift_sensor(
     def drift(values: np.ndarray, since: float) -> np.ndarray:
         return values + rate * since
 
-    _measure(sim, sensor, lambda: drift, after, until)
+    _measure(sim, sensor, lambda: drift, after, until, robot)
 
 
 def add_noise(
@@ -93,15 +110,16 @@ def add_noise(
     *,
     after: float = 0.0,
     until: float = math.inf,
+    robot: str = '',
 ) -> None:
     """Add normal noise to what a sensor measures, in its unit; as :func:`drop_sensor`."""
-    _require_finite('a noise', stddev)
+    _require_finite('a noise', stddev, least=0.0)
     own = _child(rng)
 
     def add(values: np.ndarray, since: float) -> np.ndarray:
         return values + stddev * own.standard_normal(len(values))
 
-    _measure(sim, sensor, lambda: add, after, until)
+    _measure(sim, sensor, lambda: add, after, until, robot)
 
 
 def stick_motor(
@@ -122,17 +140,28 @@ def stick_motor(
     """
     group = sim.altered.robot(robot).joints([joint])
     holds = _span(after, until)
-    for loaded in sim.altered.commands(joint):
-        sim.altered.around_write(loaded, lambda time: group.hold if holds(time) else None)
+    targets: dict[str, float] = {}
+
+    def stick() -> None:
+        targets.update(group.hold(targets))
+
+    for loaded in sim.altered.commands(joint, robot):
+        sim.altered.around_write(loaded, lambda time: stick if holds(time) else None)
 
 
 def weaken_motor(
-    sim: Simulation, joint: str, share: float, *, after: float = 0.0, until: float = math.inf
+    sim: Simulation,
+    joint: str,
+    share: float,
+    *,
+    after: float = 0.0,
+    until: float = math.inf,
+    robot: str = '',
 ) -> None:
     """Have a joint follow this share of its velocity or effort; as :func:`stick_motor`."""
     _require_finite('a share', share)
     holds = _span(after, until)
-    for loaded, commands in sim.altered.commands(joint).items():
+    for loaded, commands in sim.altered.commands(joint, robot).items():
         scaled = [each for each in commands if each.interface in ('velocity', 'effort')]
         if not scaled:
             raise SimulationError(
@@ -165,6 +194,7 @@ def slip_wheel(
     Raises:
         SimulationError: There is no such wheel.
     """
+    _require_finite('a share of friction', share, least=1e-6)
     view, model, holds = sim.altered.robot(robot), sim.altered.model, _span(after, until)
     model.scale_friction(view, 1.0, [wheel])  # raises, if there is no such wheel
     slips = False
@@ -175,7 +205,6 @@ def slip_wheel(
             slips = not slips
             model.scale_friction(view, share if slips else 1.0 / share, [wheel])
 
-    _require_finite('a share of friction', share, least=1e-6)
     look(sim.world.time)
     sim.altered.on_cycle(look)
 
@@ -204,7 +233,7 @@ def delay_commands(
         TrialsError: A jitter is asked for without a generator, or a time is below 0.
     """
     for value in (seconds, jitter):
-        _require_finite('a delay', value)
+        _require_finite('a delay', value, least=0.0)
     if jitter and rng is None:
         raise TrialsError(f'a jitter of {jitter} s needs the generator that it is drawn from')
     own, holds = _child(rng), _span(after, until)
@@ -253,7 +282,12 @@ def tilt_floor(sim: Simulation, roll: float = 0.0, pitch: float = 0.0) -> None:
 
 
 def _measure(
-    sim: Simulation, sensor: str, make: Callable[[], Change], after: float, until: float
+    sim: Simulation,
+    sensor: str,
+    make: Callable[[], Change],
+    after: float,
+    until: float,
+    robot: str,
 ) -> None:
     """Change what a sensor measures while a fault holds; ``make``: a change for each component."""
     holds = _span(after, until)
@@ -268,7 +302,7 @@ def _measure(
             ranges = change_scan(scan.ranges, (time - begin) / NANOSECONDS)
             return replace(scan, ranges=ranges.astype(scan.ranges.dtype))
 
-        sim.altered.scans.setdefault(sim.robot.name, []).append(changed)
+        sim.altered.scans.setdefault(sim.altered.robot(robot).name, []).append(changed)
         return
 
     def altering(states: Sequence[StateInterface]) -> Callable[[int], None]:
@@ -283,7 +317,7 @@ def _measure(
 
         return alter
 
-    for loaded, states in sim.altered.states(sensor).items():
+    for loaded, states in sim.altered.states(sensor, robot).items():
         sim.altered.after_read(loaded, altering(states))
 
 
@@ -322,4 +356,5 @@ def _child(rng: np.random.Generator | None) -> np.random.Generator:
 
 def _require_finite(what: str, value: float, least: float = -math.inf) -> None:
     if not (math.isfinite(value) and value >= least):
-        raise TrialsError(f'{what} of {value}; a finite number will do')
+        which = '' if math.isinf(least) else f' from {least:g} on'
+        raise TrialsError(f'{what} of {value}; a finite number{which} will do')

@@ -35,12 +35,12 @@ FEW_LINES = 80
 # and robots as environments to learn in.
 BUDGETS = {
     'modules': 843,
-    'code lines': 93_352,
+    'code lines': 93_423,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_051,
+    'code lines of helpers in test files': 26_085,
 }
 
 BASE = {

@@ -361,3 +361,41 @@ def test_an_arm_that_is_not_bolted_down_is_named_once_with_what_would_do(log):
     (line,) = [text for _, text in log.lines if 'tipped' in text]
     assert line.startswith("robot 'arm' has tipped over, by ")
     assert 'none of its links is called world: fix it (fixed:=true)' in line
+
+
+DOOR = """
+<mujoco>
+  <worldbody>
+    <geom type="plane" size="0 0 1"/>
+    <body pos="3 0 0.5"><joint name="hinge" type="hinge" axis="0 0 1"/>
+      <geom type="box" size="0.4 0.02 0.4" mass="5"/></body>
+    <body pos="-3 0 0.5"><joint type="hinge" axis="0 0 1"/>
+      <geom type="box" size="0.4 0.02 0.4" mass="5"/></body>
+  </worldbody>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize('joint', [0, 1], ids=['named', 'without a name'])
+def test_a_thing_of_the_world_that_is_frozen_stays_so_when_robots_come_and_go(
+    log, tmp_path, joint
+):
+    file = tmp_path / 'door.xml'
+    file.write_text(DOOR)
+    world = MujocoWorld(str(file), log=log)
+    data = world.engine.data
+    data.qvel[:] = 1.0
+    world.step(100)
+    data.qvel[joint] = math.nan
+    world.step(5)
+    angles = world.engine.data.qpos.tolist()
+    world.spawn('amr', AMR)
+    world.step(100)
+    world.remove('amr')
+    world.step(100)
+    after = world.engine.data.qpos.tolist()
+    assert after[joint] == angles[joint]
+    assert after[1 - joint] > angles[1 - joint] + 0.1
+    world.load('empty')
+    assert world.faults.lost == ()
+    world.step(5)

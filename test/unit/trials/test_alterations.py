@@ -33,6 +33,27 @@ CHANGES = {
     'lost': lambda sim, rng: faults.lose_commands(sim, 0.5, rng),
     'tilt': lambda sim, rng: faults.tilt_floor(sim, pitch=-0.1),
 }
+LEVER = """<robot name="arm"><link name="world"/><link name="base"/>
+  <joint name="to_world" type="fixed"><parent link="world"/><child link="base"/>
+    <origin xyz="0 0 1"/></joint>
+  <link name="lever"><inertial><origin xyz="0.5 0 0"/><mass value="2"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="hinge" type="revolute"><parent link="base"/><child link="lever"/>
+    <axis xyz="0 1 0"/><limit lower="-1.5" upper="1.5" effort="30" velocity="2"/></joint>
+  <ros2_control name="arm" type="system">
+    <hardware><plugin>gz_ros2_control/GazeboSimSystem</plugin></hardware>
+    <joint name="hinge"><command_interface name="position"/>
+      <state_interface name="position"/></joint>
+  </ros2_control></robot>"""
+LEVER_CONTROLLERS = """
+controller_manager:
+  ros__parameters:
+    update_rate: 100
+    joint_state_broadcaster: {type: joint_state_broadcaster/JointStateBroadcaster}
+    arm: {type: forward_command_controller/ForwardCommandController}
+arm:
+  ros__parameters: {joints: [hinge], interface_name: position}
+"""
 
 
 @pytest.fixture(scope='module')
@@ -141,6 +162,48 @@ def test_a_stuck_motor_stays_and_a_weak_one_is_slow_for_their_time(simulate):
     )
 
 
+def test_a_stuck_motor_does_not_creep_under_load(simulate, tmp_path):
+    file = tmp_path / 'arm.yaml'
+    file.write_text(LEVER_CONTROLLERS)
+    sim = simulate(LEVER, str(file))
+    sim.run(0.1)
+    faults.stick_motor(sim, 'hinge')
+    sim.run(0.1)
+    begin = sim.joints['hinge'].position
+    sim.send('/arm/commands', {'data': [0.5]})
+    sim.run(10.0)
+    assert sim.joints['hinge'].position == pytest.approx(begin, abs=1e-5)
+
+
+def test_a_fault_of_one_robot_is_none_of_another(simulate):
+    sim = simulate(URDF, robots={'a': Transform(), 'b': Transform((0.0, 2.0, 0.0))})
+    with pytest.raises(SimulationError, match='there are 2 robots; name one: a, b'):
+        faults.weaken_motor(sim, LEFT, 0.5)
+    faults.weaken_motor(sim, LEFT, 0.5, robot='b')
+    faults.drift_sensor(sim, f'{RIGHT}/velocity', 2.0, robot='b')
+    sim.drive_all({'a': (0.5, 0.0), 'b': (0.5, 0.0)}, seconds=1, stop=False)
+    a, b = sim.robots['a'].joints, sim.robots['b'].joints
+    assert (a[LEFT].velocity, b[LEFT].velocity) == pytest.approx((5.0, 2.5), abs=0.05)
+    assert (a[RIGHT].velocity, b[RIGHT].velocity) == pytest.approx((5.0, 7.0), abs=0.1)
+
+
+def test_a_reset_undoes_what_was_changed_before_the_physics_was_lost(simulate):
+    sim = simulate(URDF)
+    constants, state = sim.world.engine.constants(), sim.world.state()
+    variations.scale_mass(sim, 1.5)
+    sim.world.engine.data.qvel[0] = math.nan
+    sim.run(0.1)
+    assert sim.world.faults.lost == ('amr',)
+    sim.reset()
+    assert (sim.world.engine.constants(), sim.world.state()) == (constants, state)
+    sim.world.engine.data.qvel[0] = math.nan
+    sim.run(0.1)
+    with pytest.raises(SimulationError, match='the physics of "amr" is lost: the model is chang'):
+        variations.scale_mass(sim, 1.5)
+    sim.reset()
+    assert (sim.world.engine.constants(), sim.world.state()) == (constants, state)
+
+
 def test_sensors_drop_freeze_and_drift_for_their_time(simulate):
     sim = simulate(SENSORS)
     faults.freeze_sensor(sim, 'imu', after=0.5, until=1.0)
@@ -214,6 +277,7 @@ def test_the_noise_of_sensors_follows_the_seed_of_a_reset(simulate):
         (lambda s: faults.stick_motor(s, 'neck'), "no joint 'neck'"),
         (lambda s: faults.weaken_motor(s, LEFT, math.nan), 'a share of nan'),
         (lambda s: faults.slip_wheel(s, 'wheel_front_left', 0.0), 'a share of friction of 0.0'),
+        (lambda s: faults.delay_commands(s, -0.1), 'a delay of -0.1; a finite number from 0 on'),
         (lambda s: faults.delay_commands(s, 0.1, jitter=0.1), 'a jitter of 0.1 s needs the gen'),
         (lambda s: faults.lose_commands(s, 2.0, np.random.default_rng()), '2.0 of all commands'),
         (lambda s: faults.drop_sensor(s, LEFT, after=2, until=1), 'a fault after 2 s until 1 s'),
