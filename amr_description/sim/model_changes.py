@@ -39,7 +39,7 @@ class ModelChanges:
     """What is changed of one engine's model; see the module."""
 
     def __init__(self, engine: Engine, lost: Callable[[], Sequence[str]]) -> None:
-        """``lost``: returns the robots whose physics was lost, which has changed the model, too."""
+        """``lost``: returns the robots whose physics is lost: that has changed the model, too."""
         self._engine, self._lost = engine, lost
         self._before: dict[str, npt.NDArray[Any]] = {}
         """All arrays of the model: what follows from a mass, MuJoCo knows."""

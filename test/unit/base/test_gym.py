@@ -190,6 +190,7 @@ def test_a_block_of_the_page_holds(block, capsys):
 
 
 @needs_gymnasium
+@pytest.mark.long
 def test_what_is_learned_is_better_than_what_is_drawn(tmp_path):
     program = [sys.executable, ROOT / 'examples' / 'learn_to_drive.py']
     options = ['--generations', '2', '--population', '8']
