@@ -54,6 +54,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--generations', type=int, default=15)
     parser.add_argument('--population', type=int, default=24)
+    parser.add_argument('--goals', type=int, default=50, help='to which it drives at the end')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('-o', '--output', default='policy.npy')
     options = parser.parse_args()
@@ -71,7 +72,7 @@ def main() -> None:
             mean, spread = np.mean(best, axis=0), np.std(best, axis=0) + 0.05
             said = f'{scores.mean():.2f}, best {scores.max():.2f}'
             print(f'generation {generation}: {said}', flush=True)
-        unseen = [(mean, seed) for seed in range(50)]
+        unseen = [(mean, seed) for seed in range(options.goals)]
         print(f'{sum(processes.map(reached, unseen))} of {len(unseen)} goals reached')
     np.save(options.output, mean)
 

@@ -139,9 +139,7 @@ _ABSURD = 1e5
 
 _LIGHT = 1e-6
 """kg·m² or kg; actuators and contacts accelerate less than this to any speed in one step."""
-
 _ROTOR = rotor_name('')
-
 _DOWN = np.array([0.0, 0.0, -1.0])
 _SINK = 0.1
 """m; a robot that stands on a floor is not deeper in it."""
