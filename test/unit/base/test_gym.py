@@ -192,7 +192,7 @@ def test_a_block_of_the_page_holds(block, capsys):
 @needs_gymnasium
 def test_the_example_learns(tmp_path):
     program = [sys.executable, ROOT / 'examples' / 'learn_to_drive.py']
-    options = '--generations 2 --population 4 --goals 2'.split()
+    options = ['--generations', '2', '--population', '4', '--goals', '2']
     done = subprocess.run(
         [*program, *options], cwd=tmp_path, text=True, capture_output=True, timeout=600
     )
