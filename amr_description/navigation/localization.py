@@ -9,7 +9,8 @@ How far odometry errs is what amcl's motion model of a differential drive says o
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+import enum
 import math
 
 import numpy as np
@@ -23,8 +24,23 @@ INITIAL_VARIANCES = (0.25, 0.25, (math.pi / 12.0) ** 2)
 
 _LEAST_NOISE = (0.02, 0.02, 0.01)
 """m, m, rad: a pose is never believed to be better than this before the next scan."""
-_LOST = 0.25
-"""Below this share of rays that meet something of the map, a scan says nothing of the pose."""
+_LOST, _POOR = 0.25, 0.5
+"""Below these shares of rays that meet something of the map, a scan says nothing, or little."""
+
+
+class Agreement(enum.IntEnum):
+    """How well a scan fits the map at the pose that was found."""
+
+    LOST = 0
+    """So badly that the pose is that of odometry."""
+    POOR = 1
+    """So that another pose may be meant."""
+    GOOD = 2
+
+    @classmethod
+    def of(cls, match: Match) -> 'Agreement':
+        """Return that of a match."""
+        return cls((match.fit >= _LOST) + (match.fit >= _POOR))
 
 
 @dataclass(frozen=True)
@@ -137,16 +153,13 @@ class ScanTracker:
         match = self.matcher.match(points, predicted, covariance)
         if match.fit < _LOST:
             match = Match(predicted, covariance, match.fit)
+        elif match.fit < _POOR:  # it is less sure than what does fit alone would have it
+            match = replace(match, covariance=match.covariance / match.fit**2)
         self.estimate = Estimate(match.pose, match.covariance, odometry)
         return match
 
     def _has_moved(self, motion: Pose) -> bool:
         return math.hypot(motion.x, motion.y) >= self._min_d or abs(motion.yaw) >= self._min_a
-
-
-def is_lost(match: Match) -> bool:
-    """Return whether a scan did not fit the map, so that the pose is that of odometry."""
-    return match.fit < _LOST
 
 
 def ray_ends(

@@ -40,7 +40,7 @@ from amr_description.errors import TransformException
 from amr_description.maps.pose import Pose
 from amr_description.model.frames import matrix_from_quaternion
 from amr_description.navigation.localization import (
-    is_lost,
+    Agreement,
     MotionNoise,
     ray_ends,
     ScanTracker,
@@ -147,7 +147,8 @@ class ScanLocalizer(Node):
         self._tracker: ScanTracker | None = None
         self._initial = _initial_pose(given)
         self._latest = -1
-        self._is_lost = False
+        self._said: Agreement | None = None
+        """How well the scan fits, as it was last said; None: a pose was given since."""
         self._buffer = Buffer(clock=self.get_clock())
         self._listener = TransformListener(self._buffer, self)
         self._queue = TransformQueue[LaserScan](self._buffer, self._localize, _DEPTH)
@@ -219,6 +220,7 @@ class ScanLocalizer(Node):
                 odometry = plane_pose(self._buffer.lookup_transform(*frames, time))
                 break
         self._initial = _Initial(pose, plane_covariance(message), odometry)
+        self._said = None
         if self._tracker is not None:
             self._tracker.estimate = None
         self.get_logger().info(f'Setting pose: {pose.x:.3f} {pose.y:.3f} {pose.yaw:.3f}')
@@ -256,7 +258,7 @@ class ScanLocalizer(Node):
         match, stamp = tracker.update(points, odometry), nanoseconds(message.header.stamp)
         if match is not None:
             self._topics.send_pose(stamp, match.pose, match.covariance)
-            self._tell_if_lost(match, len(points))
+            self._say_how_it_fits(match, len(points))
         assert tracker.estimate is not None, 'it has begun'
         self._topics.send_transform(
             stamp, tracker.estimate.map_to_odom, self._settings.odom_frame_id
@@ -301,14 +303,24 @@ class ScanLocalizer(Node):
 
     # --- what is said ---------------------------------------------------------------------------
 
-    def _tell_if_lost(self, match: Match, rays: int) -> None:
-        was_lost, self._is_lost = self._is_lost, is_lost(match)
-        if self._is_lost and not was_lost:
-            x, y, yaw = match.pose
+    def _say_how_it_fits(self, match: Match, rays: int) -> None:
+        """Say it of a pose that was given, and when it changes."""
+        said, self._said = self._said, Agreement.of(match)
+        if said is self._said:
+            return
+        x, y, yaw = match.pose
+        where = f'the map at {x:.2f} {y:.2f} {yaw:.2f}: of {rays} rays {match.fit:.0%} end at'
+        if self._said is Agreement.GOOD:
+            self.get_logger().info(f'the scan fits {where} something of it')
+        elif self._said is Agreement.POOR:
             self.get_logger().warning(
-                f'the scan does not fit the map at {x:.2f} {y:.2f} {yaw:.2f}: of {rays} rays '
-                f'{match.fit:.0%} end at something of it. The pose is that of odometry until it '
-                'fits again, or /initialpose says where the robot is'
+                f'the scan fits little of {where} something of it. If the robot is elsewhere, '
+                '/initialpose says where'
+            )
+        else:
+            self.get_logger().warning(
+                f'the scan does not fit {where} something of it. The pose is that of odometry '
+                'until it fits again, or /initialpose says where the robot is'
             )
 
     def _complain(self) -> None:

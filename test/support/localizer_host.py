@@ -117,7 +117,7 @@ class Host:
         self.wait(is_there)
         return pose_of(found[-1].pose.pose)
 
-    def warning(self, text: str) -> str:
+    def line(self, text: str) -> str:
         """Wait for a line of the log."""
         self.wait(lambda: any(text in line for line in self.log))
         return next(line for line in self.log if text in line)
@@ -128,7 +128,7 @@ class Host:
         ]
 
     def _note(self, message: Log) -> None:
-        if message.level >= 30:  # Log.WARN, which is bytes in some releases
+        if message.level >= 20:  # Log.INFO, which is bytes in some releases
             self.log.append(message.msg)
 
 

@@ -35,7 +35,7 @@ FEW_LINES = 80
 # and robots as environments to learn in.
 BUDGETS = {
     'modules': 843,
-    'code lines': 93_423,
+    'code lines': 93_441,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

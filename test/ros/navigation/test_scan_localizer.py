@@ -163,7 +163,24 @@ def test_a_scan_that_does_not_fit_is_said():
         host.send_initial_pose(BEGIN, variances=(0.01, 0.01, 0.01))
         robot.localized(1000 * MS, BEGIN)
         robot.localized(300_000 * MS, BEGIN, ranges=np.full(360, 0.6))
-        assert 'The pose is that of odometry' in host.warning('does not fit the map')
+        assert 'The pose is that of odometry' in host.line('does not fit the map')
+
+
+def test_how_well_the_scan_fits_is_said_of_each_pose_that_is_given():
+    with hosted(ScanLocalizer, hears_truth=False) as host:
+        robot = Room(host)
+        host.send_initial_pose(BEGIN, variances=(0.01, 0.01, 0.01))
+        robot.localized(1000 * MS, BEGIN)
+        assert '100% end at something of it' in host.line('the scan fits the map at -2.00 1.50')
+        sure = host.poses[-1].pose.covariance[0]
+        ranges = scan(BEGIN.compose(LIDAR))
+        ranges[:220] = 0.6  # somebody stands around it
+        robot.localized(300_000 * MS, BEGIN, ranges=ranges)
+        assert '/initialpose says where' in host.line('the scan fits little of the map')
+        assert host.poses[-1].pose.covariance[0] > 4 * sure
+        host.send_initial_pose(BEGIN, variances=(0.01, 0.01, 0.01))
+        robot.localized(600_000 * MS, BEGIN)
+        host.wait(lambda: sum('the scan fits the map' in line for line in host.log) == 2)
 
 
 @pytest.mark.parametrize(
@@ -218,11 +235,11 @@ def test_what_is_no_map_is_ignored():
     with hosted(ScanLocalizer, hears_truth=False) as host:
         robot = Room(host, has_map=False)
         robot.maps.publish(OccupancyGrid())
-        host.warning('Ignoring a map of 0 x 0 cells of 0 m')
+        host.line('Ignoring a map of 0 x 0 cells of 0 m')
         torn = grid_message(room())
         torn.data.pop()
         robot.maps.publish(torn)
-        host.warning(' have come')
+        host.line(' have come')
         robot.maps.publish(grid_message(room()))
         host.send_initial_pose(BEGIN)
         robot.localized(1000 * MS, BEGIN)

@@ -202,7 +202,7 @@ def test_which_of_several_robots_is_meant_has_to_be_said():
                 return any('are left, right' in line for line in host.log)
 
             host.wait(is_said)
-            assert "parameter 'entity'" in host.warning('are left, right')
+            assert "parameter 'entity'" in host.line('are left, right')
             assert asked == []
 
 
@@ -211,14 +211,14 @@ def test_what_the_simulator_refuses_is_said():
         begin(host)
         with simulator(host, ['amr'], "'amr' stands fixed in the world") as asked:
             move(host, asked, Pose(0.0, 0.0, 0.0))
-            assert 'set_entity_state answers' in host.warning('stands fixed')
+            assert 'set_entity_state answers' in host.line('stands fixed')
 
 
 def test_without_a_simulator_the_robot_stays():
     with hosted(TruthLocalizer, '-p', 'simulator:=/nobody') as host:
         begin(host)
         host.send_initial_pose(Pose(0.0, 0.0, 0.0))
-        line = host.warning('no simulator serves /nobody/get_entities')
+        line = host.line('no simulator serves /nobody/get_entities')
         assert 'set_entity_state:=false' in line
 
 
@@ -257,13 +257,13 @@ def test_an_initial_pose_may_shift_the_map_instead():
 def test_an_initial_pose_that_cannot_be_used_is_said(pose, frame, said):
     with hosted(TruthLocalizer) as host:
         host.send_initial_pose(pose, frame)
-        host.warning(said)
+        host.line(said)
 
 
 def test_what_is_missing_is_said_once(monkeypatch):
     monkeypatch.setattr(truth_localizer, '_PATIENCE', 0.0)
     with hosted(TruthLocalizer, '-r', 'ground_truth/odom:=truth/odom') as host:
-        line = host.warning('no pose in map yet.')
+        line = host.line('no pose in map yet.')
         assert 'Nothing is on /truth/odom' in line
         assert 'there are: /ground_truth/odom. Another' in line or 'there are: none.' in line
         assert 'ground_truth_rate above 0' in line

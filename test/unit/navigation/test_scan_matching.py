@@ -10,7 +10,7 @@ import pytest
 from support.scanned_room import ANGLES, room, scan
 
 from amr_description.maps.pose import Pose, wrapped
-from amr_description.navigation.localization import is_lost, MotionNoise, ray_ends, ScanTracker
+from amr_description.navigation.localization import Agreement, MotionNoise, ray_ends, ScanTracker
 from amr_description.navigation.scan_matching import ScanMatcher
 
 SURE = np.diag([0.01, 0.01, 0.01])
@@ -163,7 +163,7 @@ def test_a_scan_of_another_place_leaves_the_pose_to_odometry():
     follower.place(POSES[0], SURE, Pose(0.0, 0.0, 0.0))
     far_from_walls = ray_ends(np.full(360, 0.7), ANGLES, nearest=0.1, farthest=12.0, most=360)
     match = follower.update(far_from_walls, Pose(0.1, 0.0, 0.0))
-    assert is_lost(match)
+    assert Agreement.of(match) is Agreement.LOST
     assert match.pose == pytest.approx((0.1, 0.0, 0.0))
 
 
