@@ -49,7 +49,7 @@ def test_a_setup_py_that_cannot_be_read_is_one_line_and_the_others_are_built(tmp
     write(tmp_path, fault, before)
     write(tmp_path, 'z_ok')
     built = subprocess.run(
-        [sys.executable, '-m', 'colcon', 'build'],
+        [sys.executable, '-m', 'colcon', 'build', '--parallel-workers', '1'],
         cwd=tmp_path,
         env={**os.environ, 'COLCON_HOME': str(tmp_path)},
         capture_output=True,
