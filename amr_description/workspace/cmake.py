@@ -191,7 +191,8 @@ def _without(lacks: Missing, source: Path, can_do_without: bool) -> tuple[str | 
             '-DBUILD_TESTING=OFF',
             f'{package} is built without its tests, which need {lacks.name!r}: that is not here\n',
         )
-    return write_stub(lacks.name, _stubs()) if can_do_without else None, ''
+    has_stub = can_do_without and not lacks.is_command
+    return write_stub(lacks.name, _stubs()) if has_stub else None, ''
 
 
 def _stubs() -> Path:

@@ -24,12 +24,13 @@ _MISSING = (
     re.compile(r'Could NOT find (\S+)'),
     re.compile(r'required packages were not found: - (\S+)'),
 )
+_UNKNOWN_COMMAND = re.compile(r'Unknown CMake command "(\S+)"')
 _OF_ROS = re.compile(r'[a-z][a-z0-9]*(_[a-z0-9]+)*')
 
 
 @dataclass(frozen=True)
 class Missing:
-    """A package that CMake asks for in vain."""
+    """A package that CMake asks for in vain, or a command of one."""
 
     name: str
     version: str | None
@@ -37,6 +38,7 @@ class Missing:
     """File and line of the package's own rules."""
     source: Path
     """The folder of the package that asks."""
+    is_command: bool = False
 
     @property
     def is_for_tests(self) -> bool:
@@ -46,6 +48,11 @@ class Missing:
     def __str__(self) -> str:
         """Say which package lacks what, where it asks for it, and what would do."""
         where = f', {self.place[0]}:{self.place[1]}' if self.place else ''
+        if self.is_command:
+            return (
+                f'{package_of(self.source)} calls {self.name}(){where}, which is no command here: '
+                'find_package() of the package that has it is missing, or that package'
+            )
         wanted = f'{self.name!r} {self.version}' if self.version else repr(self.name)
         package = package_of(self.source)
         return f'{package} needs {wanted} (find_package{where}), {_advice(self.name)}'
@@ -60,12 +67,14 @@ def missing(said: str, source: str) -> Missing | None:
         source: the folder of the package; empty: not known.
     """
     for text, places in _errors(said):
+        own = next((each for each in places if os.path.basename(each[0]) == _RULES), None)
         for pattern in _MISSING:
             found = pattern.search(text)
             if found:
                 name, version = found[1], found[2] if pattern.groups > 1 else None
-                own = (each for each in places if os.path.basename(each[0]) == _RULES)
-                return Missing(name, version, next(own, None), Path(source))
+                return Missing(name, version, own, Path(source))
+        if found := _UNKNOWN_COMMAND.search(text):
+            return Missing(found[1], None, own, Path(source), is_command=True)
     return None
 
 

@@ -20,6 +20,12 @@ CMake Error at CMakeLists.txt:{line} (find_package):
 
 
 """
+COMMAND = """\
+CMake Error at CMakeLists.txt:{line} ({name}):
+  Unknown CMake command "{name}".
+
+
+"""
 VERSION = """\
 CMake Error at CMakeLists.txt:3 (find_package):
   Could not find a configuration file for package "rclcpp" that is compatible
@@ -113,6 +119,10 @@ def source(tmp_path, monkeypatch):
             ' machine does not have: install its development package',
         ),
         (MODULE, "bot needs 'Boost' (find_package, CMakeLists.txt:3), a C++ library that "),
+        (
+            COMMAND.format(line=9, name='ament_magic'),
+            'bot calls ament_magic(), CMakeLists.txt:9, which is no command here: find_package()',
+        ),
         (PKG_CONFIG, "bot needs 'libusb-1.0' (find_package, CMakeLists.txt:4), a C++ library "),
     ],
 )
@@ -135,6 +145,8 @@ def test_other_failures_are_left_as_they_are(source, said):
 
 def test_what_only_tests_need(source):
     lacks = missing(CONFIG.format(line=6, name='rostest'), source)
+    assert lacks.is_for_tests
+    lacks = missing(COMMAND.format(line=6, name='add_launch_test'), source)
     assert lacks.is_for_tests
     assert not missing(CONFIG.format(line=9, name='rclcpp'), source).is_for_tests
 
