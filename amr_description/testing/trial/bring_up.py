@@ -9,10 +9,11 @@ comes any further (a chained controller waits for the one that it commands); and
 left get their turn in place of the ones that hold their interfaces.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 import re
+from typing import Any
 
 from controller_manager_msgs.msg import ControllerState
 from controller_manager_msgs.srv import ListControllers
@@ -21,7 +22,7 @@ from lifecycle_msgs.msg import State
 from amr_description.control.ros.client import ManagerClient
 from amr_description.controller_manager.spawner import Spawner
 from amr_description.controller_manager.spawner_arguments import parse
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, SimulationError
 from amr_description.ros.log_thread import LoggerLog
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.findings import ControllerFinding
@@ -31,6 +32,8 @@ _TIMEOUT = 30.0
 """s of the wall clock for the manager to come."""
 _GRACE = 3.0
 """s of the wall clock for a manager that nobody promised."""
+_DISCOVERY = 5.0
+"""s of the wall clock, after which a node that is known has no such topic."""
 _LOG_LINE = re.compile(r'^\[(WARN|ERROR|FATAL)\] (?:\[[^]]*\] ?)*:? ?(.*)', re.MULTILINE)
 
 
@@ -192,3 +195,35 @@ def _active(each: ControllerState, manager: ManagerClient) -> Active:
         tuple(each.claimed_interfaces) or tuple(each.required_command_interfaces),
         bool(each.is_chained),
     )
+
+
+def topics_of(
+    sim: Simulation,
+    find: Callable[[str, str], Any],
+    controller: Active,
+    wanted: Collection[str],
+) -> list[tuple[str, str]]:
+    """
+    Return the topics of some types of a controller's node, each with its type.
+
+    Args:
+        sim: The simulation.
+        find: ``get_subscriber_names_and_types_by_node``, or that of publishers.
+        controller: Active.
+        wanted: The types.
+    """
+    name, inside = controller.name, controller.namespace
+
+    def is_there() -> bool:
+        return (name, inside) in sim.node.get_node_names_and_namespaces()
+
+    def found() -> list[tuple[str, str]]:
+        topics = find(name, inside)
+        return [(topic, kind) for topic, kinds in topics for kind in kinds if kind in wanted]
+
+    sim.wait(is_there, f"the node of '{name}'")
+    try:  # a node is known before its topics are
+        sim.wait(found, f"a topic of '{name}'", _DISCOVERY)
+    except SimulationError:
+        return []
+    return found()

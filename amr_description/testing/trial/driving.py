@@ -9,7 +9,6 @@ near the speed that it is asked for, be it by its odometry or in truth (odometry
 command), is asked for 80 % of what it reaches.
 """
 
-from collections.abc import Callable, Collection
 from dataclasses import dataclass
 import math
 from typing import Any, TypeAlias
@@ -17,13 +16,13 @@ from typing import Any, TypeAlias
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 
-from amr_description.errors import AmrError, SimulationError
+from amr_description.errors import AmrError
 from amr_description.model.frames import conjugate, rotate, yaw_of
 from amr_description.simulation.readings import Motion
 from amr_description.testing.lock_step import LatestMessage
 from amr_description.testing.readings import motion_of_odometry
 from amr_description.testing.simulation import Simulation
-from amr_description.testing.trial.bring_up import Active
+from amr_description.testing.trial.bring_up import Active, topics_of
 from amr_description.testing.trial.findings import MotionResult
 from amr_description.testing.trial.verdict import TOLERANCE
 
@@ -42,8 +41,6 @@ _NOWHERE_NEAR = 0.7
 """Of the speed that is asked; wheels that slip may make less of it, too, but not that much."""
 _SLOWEST = 1e-3
 """m/s or rad/s; what is slower does not move."""
-_DISCOVERY = 5.0
-"""s of the wall clock, after which a node that is known has no such topic."""
 _LONGEST_START, _LONGEST_STRETCH, _LONGEST_STOP = 10.0, 60.0, 10.0
 """s of simulated time."""
 
@@ -85,15 +82,13 @@ class DriveTrial:
         self._controller = controller
         self._wheelbase = wheelbase
         node = sim.node
-        name, inside = controller.name, controller.namespace
-        subscribed = node.get_subscriber_names_and_types_by_node
-        found = _topics(sim, subscribed, name, inside, tuple(_TYPES))
+        found = topics_of(sim, node.get_subscriber_names_and_types_by_node, controller, _TYPES)
         if not found:
-            raise LookupError(f'{name} subscribes to no Twist')
+            raise LookupError(f'{controller.name} subscribes to no Twist')
         self.topic, kind = found[0]
         self._type = _TYPES[kind]
         published = node.get_publisher_names_and_types_by_node
-        topics = _topics(sim, published, name, inside, (_ODOMETRY,))
+        topics = topics_of(sim, published, controller, (_ODOMETRY,))
         self._odometry = LatestMessage(node, Odometry, topics[0][0]) if topics else None
 
     @property
@@ -224,27 +219,3 @@ def _speed_of(reading: Motion, axis: int) -> float:
 
 def _along(way: Displacement, axis: int) -> float:
     return (way.ahead, way.left, way.turn)[axis]
-
-
-def _topics(
-    sim: Simulation,
-    find: Callable[[str, str], Any],
-    controller: str,
-    inside: str,
-    wanted: Collection[str],
-) -> list[tuple[str, str]]:
-    """Return the topics of some types of the node of a controller, each with its type."""
-
-    def is_there() -> bool:
-        return (controller, inside) in sim.node.get_node_names_and_namespaces()
-
-    def found() -> list[tuple[str, str]]:
-        topics = find(controller, inside)
-        return [(topic, kind) for topic, kinds in topics for kind in kinds if kind in wanted]
-
-    sim.wait(is_there, f"the node of '{controller}'")
-    try:  # a node is known before its topics are
-        sim.wait(found, f"a topic of '{controller}'", _DISCOVERY)
-    except SimulationError:
-        return []
-    return found()

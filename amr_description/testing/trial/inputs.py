@@ -41,12 +41,13 @@ _PACKAGES = (
 )
 _JOINT = re.compile(r'<joint\s+name="([^"]+)"\s*>(.*?)</joint>', re.DOTALL)
 _BLOCK = re.compile(r'<ros2_control\b.*?</ros2_control>', re.DOTALL)
-_DRIVES = re.compile(
-    r'drive|steering|ackerman|planar.?move|force.?based.?move|velocity.?control|joint.?trajectory'
-    r'|joint.?position.?controller|joint.?controller',
-    re.IGNORECASE,
+_JOINT_PLUGINS = re.compile(
+    r'joint.?(?:pose.?)?trajectory|joint.?(?:position.?|velocity.?)?controller', re.IGNORECASE
 )
-"""Of kind, library or name of a plugin that moves a robot."""
+_DRIVES = re.compile(
+    r'drive|steering|ackerman|planar.?move|force.?based.?move|velocity.?control', re.IGNORECASE
+)
+"""Of kind, library or name of a plugin that moves joints, or the robot as a whole."""
 _POSITION = re.compile(r'<command_interface\s+name="position"')
 
 
@@ -211,7 +212,9 @@ class DeclaredDrives:
     """What a description says that moves the robot."""
 
     plugins: tuple[str, ...]
-    """Plugins of Gazebo that drive, by their names or libraries, simulated or not."""
+    """Plugins of Gazebo that drive it, by their names or libraries, simulated or not."""
+    joint_plugins: tuple[str, ...]
+    """Those that move joints of it."""
     is_controlled: bool
     """Whether it has ``<ros2_control>``."""
     has_commands: bool
@@ -220,22 +223,24 @@ class DeclaredDrives:
     @property
     def is_any(self) -> bool:
         """Whether it says anything."""
-        return bool(self.plugins) or self.has_commands
+        return bool(self.plugins or self.joint_plugins) or self.has_commands
 
 
 def declared_drives(text: str) -> DeclaredDrives:
     """Return what a URDF says that moves the robot; what is in comments does not count."""
     xml = parse_xml(text, DESCRIPTION, lambda fault: None)
     if xml is None:
-        return DeclaredDrives((), is_controlled=False, has_commands=False)
-    drives = [
-        each.name or each.library
-        for each in plugins_of(xml, [])
-        if _DRIVES.search(f'{each.kind} {each.library} {each.name}') and not each.is_world_matter
-    ]
+        return DeclaredDrives((), (), is_controlled=False, has_commands=False)
+    found: dict[bool, list[str]] = {False: [], True: []}
+    for each in plugins_of(xml, []):
+        words = f'{each.kind} {each.library} {each.name}'
+        moves_joints = _JOINT_PLUGINS.search(words) is not None
+        if (moves_joints or _DRIVES.search(words)) and not each.is_world_matter:
+            found[moves_joints].append(each.name or each.library)
     blocks = xml.findall('ros2_control')
     has_commands = any(each.find('.//command_interface') is not None for each in blocks)
-    return DeclaredDrives(tuple(dict.fromkeys(drives)), bool(blocks), has_commands)
+    drives, joints = (tuple(dict.fromkeys(found[each])) for each in (False, True))
+    return DeclaredDrives(drives, joints, bool(blocks), has_commands)
 
 
 def position_joints(text: str) -> list[str]:

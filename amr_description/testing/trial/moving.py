@@ -17,17 +17,17 @@ from builtin_interfaces.msg import Duration
 from control_msgs.action import GripperCommand, ParallelGripperCommand
 from rclpy.action import ActionClient, get_action_names_and_types
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64MultiArray
+from std_msgs.msg import Float64, Float64MultiArray
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from amr_description.errors import AmrError
+from amr_description.errors import AmrError, SimulationError
 from amr_description.model.robot import Joint, JointType
 from amr_description.ros.service_calls import ActionReadiness
 from amr_description.simulation.readings import Joint as State
 from amr_description.testing.lock_step import LatestMessage
 from amr_description.testing.readings import joints_of
 from amr_description.testing.simulation import Simulation
-from amr_description.testing.trial.bring_up import Active
+from amr_description.testing.trial.bring_up import Active, topics_of
 from amr_description.testing.trial.findings import MotionResult
 
 _ANGLE, _LENGTH = 0.3, 0.05
@@ -44,6 +44,8 @@ _BROADCASTER = 'JointStateBroadcaster'
 _TRAJECTORIES = 'JointTrajectoryController'
 _GROUPS = ('ForwardCommandController', 'JointGroup')
 _GRIPPERS = 'GripperActionController'
+_ONE_NUMBER = 'GazeboJointCommand'
+_MOVED = (_TRAJECTORIES, _GRIPPERS, _ONE_NUMBER, *_GROUPS)
 _ACTIONS: dict[str, Any] = {
     'control_msgs/action/GripperCommand': GripperCommand,
     'control_msgs/action/ParallelGripperCommand': ParallelGripperCommand,
@@ -52,7 +54,7 @@ _ACTIONS: dict[str, Any] = {
 
 def is_moved(controller: Active) -> bool:
     """Return whether a controller is one that is tried here."""
-    return any(word in controller.type for word in (_TRAJECTORIES, _GRIPPERS, *_GROUPS))
+    return any(word in controller.type for word in _MOVED)
 
 
 def offset_of(joint: Joint | None, position: float) -> float:
@@ -129,6 +131,25 @@ class Mover:
         note = f'{kinds} commands are not tried'
         return MotionResult(self._controller.name, what, 0.0, None, None, True, note)
 
+    @property
+    def _takes_one_number(self) -> bool:
+        return self._controller.type.endswith(_ONE_NUMBER)
+
+    def _command(self, values: Sequence[float]) -> None:
+        """Send a command for each joint, or one for all."""
+        if self._takes_one_number:
+            self._send('std_msgs/msg/Float64', Float64(data=values[0]))
+        else:
+            self._send('std_msgs/msg/Float64MultiArray', Float64MultiArray(data=list(values)))
+
+    def _send(self, kind: str, message: Any) -> None:
+        """Send on the controller's topic of a type, which a plugin may name as it likes."""
+        subscribed = self._sim.node.get_subscriber_names_and_types_by_node
+        topics = topics_of(self._sim, subscribed, self._controller, (kind,))
+        if not topics:
+            raise SimulationError(f'{self._controller.name} subscribes to no {kind}')
+        self._sim.send(topics[0][0], message)
+
     def _targets(self) -> dict[str, tuple[float, float]]:
         """Return (start, target) of each joint."""
         states = self._states.read()
@@ -145,13 +166,15 @@ class Mover:
             time_from_start=Duration(sec=int(_SECONDS)),
         )
         message = JointTrajectory(joint_names=list(targets), points=[point])
-        self._sim.send(self._topic('joint_trajectory'), message)
+        self._send('trajectory_msgs/msg/JointTrajectory', message)
         return self._judge('trajectory', targets)
 
     def _by_position(self) -> MotionResult:
         targets = self._targets()
-        data = [target for _, target in targets.values()]
-        self._sim.send(self._topic('commands'), Float64MultiArray(data=data))
+        if self._takes_one_number:  # the same for all joints, some of which it may be too far for
+            first = next(iter(targets.values()))
+            targets = {name: (start, first[1]) for name, (start, _) in targets.items()}
+        self._command([target for _, target in targets.values()])
         return self._judge('position', targets)
 
     def _by_action(self) -> MotionResult:
@@ -212,10 +235,11 @@ class Mover:
             limit = joint.limit if (joint := self._joints.get(name)) else None
             if limit is not None and limit.velocity > 0.0:
                 speeds[name] = min(_ANGLE, 0.5 * limit.velocity)
-        topic = self._topic('commands')
-        self._sim.send(topic, Float64MultiArray(data=list(speeds.values())))
+        if self._takes_one_number:
+            speeds = dict.fromkeys(speeds, min(speeds.values()))
+        self._command([*speeds.values()])
         reached = self._steady(speeds)
-        self._sim.send(topic, Float64MultiArray(data=[0.0] * len(speeds)))
+        self._command([0.0] * len(speeds))
         self._sim.run(0.5)
         return self._worst('velocity', {n: (v, reached[n]) for n, v in speeds.items()})
 

@@ -237,6 +237,8 @@ class Trial:
         has_driven = any(each.what in ('forward', 'turn') for each in self.found.motions)
         if declared.plugins and not has_driven:
             self._fault(f'nothing has driven by its {quote_all(declared.plugins)}: {why}')
+        elif not self.found.motions and declared.joint_plugins:
+            self._fault(f'nothing has moved by its {quote_all(declared.joint_plugins)}: {why}')
         elif not self.found.motions and declared.has_commands:
             listed = [each for each in self.found.controllers if each.name not in self._publishers]
             named = 'its controllers' if listed else 'its <ros2_control>, without controllers'

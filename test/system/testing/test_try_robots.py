@@ -9,6 +9,42 @@ import sys
 from support.paths import ROOT
 from support.running_programs import Program
 
+_INERTIAL = (
+    '<inertial><mass value="1"/>'
+    '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial>'
+)
+_JOINTS = ('shoulder', 'elbow', 'wrist', 'spinner')
+# Joints of an arm, each moved by a plugin of Gazebo that drives no wheels; topics of their own.
+ARM = (
+    '<robot name="arm"><link name="world"/>'
+    + ''.join(
+        f'<link name="{joint}_link">{_INERTIAL}</link>'
+        f'<joint name="{joint}" type="revolute"><parent link="{parent}"/>'
+        f'<child link="{joint}_link"/><axis xyz="0 0 1"/>'
+        '<limit lower="-2" upper="2" effort="50" velocity="2"/></joint>'
+        for joint, parent in zip(_JOINTS, ('world', *(f'{j}_link' for j in _JOINTS)), strict=False)
+    )
+    + '<gazebo><plugin filename="x" name="gz::sim::systems::JointTrajectoryController">'
+    '<joint_name>shoulder</joint_name><joint_name>elbow</joint_name><topic>way</topic></plugin>'
+    '<plugin filename="x" name="gz::sim::systems::JointPositionController">'
+    '<joint_name>wrist</joint_name><topic>to</topic></plugin>'
+    '<plugin filename="x" name="gz::sim::systems::JointController">'
+    '<joint_name>spinner</joint_name><topic>speed</topic></plugin></gazebo></robot>'
+)
+
+
+def test_an_arm_of_plugins_is_moved_by_their_topics(tmp_path):
+    file, report = tmp_path / 'arm.urdf', tmp_path / 'report.json'
+    file.write_text(ARM)
+    module = 'amr_description.testing.trial'
+    with Program(sys.executable, '-m', module, str(file), '--json', str(report)) as program:
+        assert program.end() == 0, program.output
+    (arm,) = json.loads(report.read_text())
+    assert (arm['faults'], arm['undriven']) == ([], [])
+    motions = sorted(each['what'] for each in arm['motions'])
+    assert motions == ['position', 'trajectory', 'velocity']
+    assert '1 moved as told' in program.output
+
 
 def test_a_robot_that_is_fine_and_one_that_is_refused(tmp_path):
     robots = tmp_path / 'robots'

@@ -252,6 +252,17 @@ def test_what_a_description_says_that_drives_counts_even_if_nobody_simulates_it(
     assert not drives(f'<gazebo>{bridge}</gazebo>').plugins
 
 
+def test_plugins_that_move_joints_are_not_told_to_drive():
+    systems = 'JointTrajectoryController', 'JointPositionController', 'JointController'
+    plugins = ''.join(f'<plugin filename="x" name="gz::sim::systems::{s}"/>' for s in systems)
+    classic = '<plugin name="poses" filename="libgazebo_ros_joint_pose_trajectory.so"/>'
+    inside = f'<link name="a"/><gazebo>{plugins}{classic}</gazebo>'
+    found = declared_drives(f'<robot name="x">{inside}</robot>')
+    names = [f'gz::sim::systems::{each}' for each in systems]
+    assert (found.plugins, found.joint_plugins) == ((), (*names, 'poses'))
+    assert found.is_any
+
+
 def test_a_mode_of_the_same_joints_gives_way_and_who_commands_it():
     def listed(name, *interfaces, state='active'):
         return ControllerState(name=name, state=state, required_command_interfaces=[*interfaces])
