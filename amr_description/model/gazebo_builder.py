@@ -307,7 +307,7 @@ class Builder:
         hardware = self._joint_hardware() + self._base_hardware()
         joints = [self._limited(joint.name) for joint in self.robot.joints]
         robot = self.robot
-        if hardware:
+        if hardware or self._torques:
             robot = replace(robot, joints=tuple(joints), plugin_hardware=hardware)
         rate = min(HIGHEST_RATE, math.ceil(max(self._rates)))
         return GazeboTranslation(

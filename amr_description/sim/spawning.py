@@ -122,6 +122,7 @@ def read_description(
     log: Log = null_log,
     strict: bool = False,
     files: Sequence[Path] | None = None,
+    namespace: str = '',
 ) -> Robot:
     """
     Read and check the URDF of a robot; plugins of Gazebo that move it become hardware.
@@ -132,6 +133,8 @@ def read_description(
         log: Gets the checker's warnings.
         strict: Refuse also what a simulator can make something of.
         files: The parameter files of its controllers; None: those that it names.
+        namespace: In which it is to be spawned, absolute, and so are the sections of its
+            controllers; empty: that of the description.
 
     Raises:
         SpawnError: The text is empty, has another format, or has an error by the checker.
@@ -151,7 +154,7 @@ def read_description(
         raise SpawnError(str(cause), SpawnCode.RESOURCE_PARSE_ERROR) from cause
     for line in _lines(warnings, source):
         log(Severity.WARN, line)
-    return translate(robot, files).robot
+    return translate(robot, files, namespace).robot
 
 
 def _lines(warnings: Iterable[Finding], source: str) -> Iterator[str]:

@@ -213,10 +213,21 @@ class SimulationEngine:
 
     # --- robots -------------------------------------------------------------------------------
 
-    def read(self, text: str, source: str) -> Robot:
-        """Read the description of a robot, which messages call ``source``. Raises SpawnError."""
-        strict = self.settings.strict
-        return read_description(text, source, self._log, strict, self._parameter_files)
+    def read(self, text: str, source: str, namespace: str = '') -> Robot:
+        """
+        Read the description of a robot, as it is to be spawned.
+
+        Args:
+            text: The URDF.
+            source: What messages call it.
+            namespace: As that of :meth:`spawn`.
+
+        Raises:
+            SpawnError: It is no good, or the namespace is none.
+        """
+        strict, files = self.settings.strict, self._parameter_files
+        inside = checked_namespace(namespace) if namespace else ''
+        return read_description(text, source, self._log, strict, files, inside)
 
     @property
     def _parameter_files(self) -> list[Path] | None:

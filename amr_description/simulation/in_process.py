@@ -125,7 +125,7 @@ class Simulation(SimulationApi[Robot]):
         """``name``: of the entity; empty: that of the URDF."""
         self.altered.model.require_none()
         engine, log = self._engine, self._log
-        robot = engine.read(self._description, name or 'robot_description')
+        robot = engine.read(self._description, name or 'robot_description', namespace)
         host = LocalHost(self._lines, lambda: self.world.time, self._published.publisher)
         spawned: Spawned[LocalManager] = run_at_once(
             engine.spawn(host, name, robot, pose, namespace)

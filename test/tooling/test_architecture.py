@@ -35,12 +35,12 @@ FEW_LINES = 80
 # robots as environments to learn in, and arms of plugins that are tried by their topics.
 BUDGETS = {
     'modules': 843,
-    'code lines': 93_474,
+    'code lines': 93_476,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_114,
+    'code lines of helpers in test files': 26_122,
 }
 
 BASE = {

@@ -140,7 +140,7 @@ class SpawnServices:
 
     async def _spawn(self, request: SpawnEntity.Request, text: str, source: str) -> str:
         """Spawn an entity; return its name. Raises SpawnError, or whatever a component raises."""
-        robot = self._simulation.engine.read(text, source)
+        robot = self._simulation.engine.read(text, source, request.entity_namespace)
         _check_frame(request.initial_pose)
         name = await self._simulation.entities.spawn(
             request.name,

@@ -9,6 +9,7 @@ import pytest
 from amr_description import Simulation
 from amr_description.bringup.stacks.controllers import plan_controllers
 from amr_description.errors import AmrError, UsageError
+from amr_description.model.frames import Transform
 from amr_description.model.urdf import parse
 from amr_description.simulation.given import given_files, GivenDescription
 
@@ -89,7 +90,8 @@ def test_the_launch_takes_several_files(files):
     assert plan.parameter == joined
 
 
-def test_a_drive_plugin_beside_ros2_control_moves_the_robot():
+def cart_with_both():
+    """Return a cart whose wheels a plugin and ``<ros2_control>`` could have."""
     wheels = ''.join(
         f'<joint name="{side}_joint"><command_interface name="velocity"/>'
         '<state_interface name="position"/><state_interface name="velocity"/></joint>'
@@ -97,7 +99,36 @@ def test_a_drive_plugin_beside_ros2_control_moves_the_robot():
     )
     block = '<ros2_control name="own" type="system"><hardware><plugin>'
     block += f'gz_ros2_control/GazeboSimSystem</plugin></hardware>{wheels}</ros2_control>'
-    with Simulation(cart(classic_drive()).replace('</robot>', f'{block}</robot>')) as sim:
+    return cart(classic_drive()).replace('</robot>', f'{block}</robot>')
+
+
+def test_a_drive_plugin_beside_ros2_control_moves_the_robot():
+    with Simulation(cart_with_both()) as sim:
         sim.send('/cmd_vel', {'linear': {'x': 0.3}})
         sim.run(3.0)
         assert sim.truth.x == pytest.approx(0.9, rel=0.05)
+
+
+def test_a_robot_is_read_in_the_namespace_that_it_is_spawned_in(tmp_path):
+    file = tmp_path / 'b.yaml'
+    file.write_text("""/b/controller_manager:
+  ros__parameters:
+    drive: {type: diff_drive_controller/DiffDriveController}
+/b/drive:
+  ros__parameters:
+    left_wheel_names: [left_joint]
+    right_wheel_names: [right_joint]
+    wheel_separation: 0.4
+    wheel_radius: 0.1
+""")
+    apart = {'a': Transform(), 'b': Transform((0.0, 3.0, 0.0))}
+    with Simulation(cart_with_both(), file, robots=apart) as sim:
+        limits = {
+            name: sim.world.robot(name).description.joint('left_joint').limit for name in apart
+        }
+        # The plugin's torque; b's controller claims the wheels, and the plugin has none of them.
+        assert limits['a'].effort == 5.0
+        assert limits['b'] is None
+        sim.send('/a/cmd_vel', {'linear': {'x': 0.3}})
+        sim.run(2.0)
+        assert sim.robots['a'].truth.x == pytest.approx(0.6, rel=0.1)
