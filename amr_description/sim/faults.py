@@ -206,9 +206,6 @@ class FaultMonitor:
             on_wheels: The names of those that stand on wheels.
         """
         views, containment = self._views, self._containment
-        if views.generation != self._engine.generation:
-            self.bind()
-            views = self._views
         if containment.holds:
             containment.hold()
         if _warnings:
@@ -413,10 +410,9 @@ class _Views:
     the caches hold something else, as the code of NumPy and of MuJoCo's bindings after a step.
     """
 
-    __slots__ = ('generation', '_data', '_option', '_speeds', '_few_speeds', '_iterations')
+    __slots__ = ('_data', '_option', '_speeds', '_few_speeds', '_iterations')
 
     def __init__(self, engine: Engine) -> None:
-        self.generation = engine.generation
         self._data, self._option = engine.data, engine.model.opt
         speeds: np.ndarray = engine.data.qvel
         self._speeds = speeds

@@ -130,6 +130,7 @@ class MujocoWorld:
         self.longest_step, self._surfaces = longest, static_surfaces(spec)
         self._contacts.clear()  # gravity may be another
         self.faults.release()
+        self.faults.bind()
         self.faults.reset()
 
     def _read(self, world: str) -> mujoco.MjSpec:
@@ -326,7 +327,7 @@ class MujocoWorld:
             for geom, contact in contacts.items():
                 for surface in self._surfaces:
                     add_wheel_contact(spec, f'{name}/{geom}', surface, contact)
-            self.engine.recompile()
+            self._recompile()
         except ValueError as cause:
             self._delete(name)
             raise SpawnError(
@@ -336,7 +337,11 @@ class MujocoWorld:
 
     def _detach(self, name: str) -> None:
         self._delete(name)
+        self._recompile()
+
+    def _recompile(self) -> None:
         self.engine.recompile()
+        self.faults.bind()  # at once: what was sound is kept of this model
 
     def _delete(self, name: str) -> None:
         """Delete from the spec what was attached, including its assets and its default class."""
@@ -354,7 +359,6 @@ class MujocoWorld:
         heights = ((name, view.height_index()) for name, view in self._robots.items())
         self._roots = tuple((name, index) for name, index in heights if index is not None)
         self._on_wheels = frozenset(name for name, view in self._robots.items() if view.wheels)
-        self.faults.bind()
 
 
 @contextmanager

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from amr_description.errors import SpawnError
 from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
 
@@ -117,6 +118,18 @@ def test_what_is_frozen_stays_so_when_robots_come_and_time_is_set_and_is_not_mov
         world.step(5)
     assert world.robot('amr').pose('base_link').translation[0] > 0.2
     assert len(log.lines) == 1
+
+
+def test_what_is_lost_after_a_spawn_that_was_refused_is_frozen_where_it_was(world, log):
+    world.robot('amr').joints(DRIVEN).command('velocity', [3.0] * 4)
+    for _ in range(200):
+        world.step(5)
+    before = world.robot('amr').pose('base_link').translation
+    with pytest.raises(SpawnError, match='deep in'):
+        world.spawn('late', AMR, Transform((3.0, 0.0, -0.2)))
+    break_wheel(world, 'qvel', math.nan)
+    world.step(5)
+    assert world.robot('amr').pose('base_link').translation == before
 
 
 def test_a_loop_that_is_unstable_by_its_gains_is_named_and_no_nan_leaves_the_robot(log):
