@@ -159,7 +159,7 @@ def weaken_motor(
     robot: str = '',
 ) -> None:
     """Have a joint follow this share of its velocity or effort; as :func:`stick_motor`."""
-    _require_finite('a share', share)
+    _require_finite('a share', share, least=0.0)
     holds = _span(after, until)
     for loaded, commands in sim.altered.commands(joint, robot).items():
         scaled = [each for each in commands if each.interface in ('velocity', 'effort')]

@@ -40,7 +40,7 @@ BUDGETS = {
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_122,
+    'code lines of helpers in test files': 26_123,
 }
 
 BASE = {

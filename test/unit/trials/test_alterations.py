@@ -276,6 +276,7 @@ def test_the_noise_of_sensors_follows_the_seed_of_a_reset(simulate):
         (lambda s: faults.drop_sensor(s, 'imu'), "the state interfaces 'imu'; there are those of"),
         (lambda s: faults.stick_motor(s, 'neck'), "no joint 'neck'"),
         (lambda s: faults.weaken_motor(s, LEFT, math.nan), 'a share of nan'),
+        (lambda s: faults.weaken_motor(s, LEFT, -0.5), 'a share of -0.5; a finite number from 0'),
         (lambda s: faults.slip_wheel(s, 'wheel_front_left', 0.0), 'a share of friction of 0.0'),
         (lambda s: faults.delay_commands(s, -0.1), 'a delay of -0.1; a finite number from 0 on'),
         (lambda s: faults.delay_commands(s, 0.1, jitter=0.1), 'a jitter of 0.1 s needs the gen'),
