@@ -131,9 +131,13 @@ class MujocoJointGroup:
         lasts = values is given and all(values)
         self._written = list(values) if lasts else None
 
-    def hold(self, targets: Mapping[str, float] = NO_TARGETS) -> Mapping[str, float]:
+    def hold(self) -> None:
+        """Stop the joints and hold them where they stop."""
+        self.hold_at(NO_TARGETS)
+
+    def hold_at(self, targets: Mapping[str, float]) -> Mapping[str, float]:
         """
-        Stop the joints and hold them where they stop, or at targets, rad or m; return those.
+        Hold the joints at targets, rad or m; those without, where they stop; return all targets.
 
         Who holds them again and again, against others, gives what the first call has returned.
         """

@@ -143,7 +143,7 @@ def stick_motor(
     targets: dict[str, float] = {}
 
     def stick() -> None:
-        targets.update(group.hold(targets))
+        targets.update(group.hold_at(targets))
 
     for loaded in sim.altered.commands(joint, robot):
         sim.altered.around_write(loaded, lambda time: stick if holds(time) else None)

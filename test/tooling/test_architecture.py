@@ -35,7 +35,7 @@ FEW_LINES = 80
 # robots as environments to learn in, and arms of plugins that are tried by their topics.
 BUDGETS = {
     'modules': 843,
-    'code lines': 93_475,
+    'code lines': 93_477,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
