@@ -187,10 +187,14 @@ def plugins_in(text: str, source: str) -> DriveExamination:
     """
     try:
         robot = parse(text, source)
-        plugins = translate(robot).controllers
+        translated = translate(robot)
     except AmrError:
         return DriveExamination((), ())
-    return DriveExamination(_plugin_drives(source, plugins), plugin_findings(robot, plugins))
+    plugins = translated.controllers
+    faults = [Finding.warning(source, line, note) for line, note in translated.faults]
+    return DriveExamination(
+        _plugin_drives(source, plugins), (*faults, *plugin_findings(robot, plugins))
+    )
 
 
 def drives_of(robot: Robot, paths: Sequence[str]) -> tuple[DriveSettings, ...]:

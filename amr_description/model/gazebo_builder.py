@@ -107,6 +107,7 @@ class GazeboTranslation:
         remarks: what is worth to be known, one line each.
         not_simulated: one line that names what is declared and not simulated; '' if nothing is.
         sensors: lidars, cameras and contact sensors, which publish by themselves.
+        faults: lines of the description, and the notes of what cannot work there.
     """
 
     robot: Robot
@@ -116,6 +117,7 @@ class GazeboTranslation:
     not_simulated: str = ''
     remarks: tuple[str, ...] = ()
     sensors: tuple[WorldSensor, ...] = ()
+    faults: tuple[tuple[int, str], ...] = ()
 
     def twist_topic(self, namespace: str) -> str:
         """Return the topic of ``geometry_msgs/msg/Twist`` that drives the robot; '': none does."""
@@ -160,6 +162,7 @@ class Builder:
         self.controlled = {joint.name for info in hardware for joint in info.joints}
         self.sensors = {sensor.name for info in hardware for sensor in info.sensors}
         self.notes: list[str] = []
+        self.faults: list[tuple[int, str]] = []
         self.remarks: list[str] = []
         self.lacking: list[tuple[str, str, str]] = []
         """What is not simulated: sensor or plugin, its name, its type or library."""
@@ -188,11 +191,11 @@ class Builder:
             name for name in joints if name in self._commands or self._is_theirs(name, interface)
         ]
         if lacking or not joints:
-            plugin.note(
-                f'it cannot work: there is no joint {quote_all(lacking)} that moves; there are: '
+            plugin.fail(
+                f'there is no joint {quote_all(lacking)} that moves; there are: '
                 f'{quote_all(movable) or "none"}'
                 if lacking
-                else 'it cannot work: it names no joints'
+                else 'it names no joints'
             )
         elif theirs:
             owner = '<ros2_control>' if theirs[0] in self.controlled else 'another plugin'
@@ -224,7 +227,7 @@ class Builder:
     def move_base(self, plugin: PluginElement) -> bool:
         """Have the body as a whole commanded; return False, and note it, if it cannot be."""
         if self.robot.root.name == WORLD_LINK:
-            plugin.note(f'it cannot work: the robot is fixed by its link "{WORLD_LINK}"')
+            plugin.fail(f'the robot is fixed by its link "{WORLD_LINK}"')
         elif self._moves_base:
             plugin.note('it is left out: another plugin moves the body')
         else:
@@ -318,6 +321,7 @@ class Builder:
             _names_of(self.lacking),
             (*self.remarks, *self._lone_joints()),
             sensors,
+            tuple(self.faults),
         )
 
     def _lone_joints(self) -> Sequence[str]:

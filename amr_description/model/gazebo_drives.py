@@ -32,26 +32,22 @@ _WORLD_FRAMES = ('', 'world', '/world', 'map', '/map')
 def _diff_drive(builder: Builder, plugin: PluginElement) -> None:
     left, right = _wheel_names(plugin)
     if len(left) != len(right):
-        plugin.note(
-            f'it cannot work: {len(left)} joints are on the left and {len(right)} on the right'
-        )
+        plugin.fail(f'{len(left)} joints are on the left and {len(right)} on the right')
         return
     if not builder.can_drive(plugin, left + right):
         return
     classic = plugin.is_classic
-    separations = plugin.numbers('wheel_separation', 'wheelSeparation') or [
-        0.34 if classic else 1.0
-    ]
+    apart = 0.34 if classic else 1.0
+    separations = plugin.sizes('wheel_separation', 'wheelSeparation', default=apart)
     if classic:
-        radii = [d / 2.0 for d in plugin.numbers('wheel_diameter', 'wheelDiameter') or [0.15]]
+        radii = plugin.sizes('wheel_diameter', 'wheelDiameter', default=0.075, per=2.0)
     else:
-        radii = plugin.numbers('wheel_radius') or [0.2]
+        radii = plugin.sizes('wheel_radius', default=0.2)
+    if not separations or not radii:
+        return
     for what, values in (('separations', separations), ('radii', radii)):
         if any(value != values[0] for value in values):
             plugin.note(f'its pairs of wheels have different {what}; that of the first counts')
-    if not (separations[0] > 0.0 and radii[0] > 0.0):
-        plugin.note('it cannot work: the separation and the size of the wheels must be above 0')
-        return
     torque = math.inf
     if classic:
         torque = plugin.number('max_wheel_torque', 'wheelTorque', 'torque', default=5.0)
@@ -94,23 +90,22 @@ def _mecanum(builder: Builder, plugin: PluginElement) -> None:
     joints = [plugin.texts(f'{corner}_joint') for corner in corners]
     wheels = [names[0] for names in joints if names]
     if len(wheels) < len(corners):
-        plugin.note('it cannot work: it does not name four wheels')
+        plugin.fail('it does not name four wheels')
         return
     if any(len(names) > 1 for names in joints):
         plugin.note('the first wheel of each corner is driven, the others roll freely')
     if not builder.can_drive(plugin, wheels):
         return
-    separation = plugin.number('wheel_separation', default=1.0)
-    base = plugin.number('wheelbase', default=1.0)
-    radius = plugin.number('wheel_radius', default=0.2)
-    if not min(separation, base, radius) > 0.0:
-        plugin.note('it cannot work: distances and size of the wheels must be above 0')
+    separations = plugin.sizes('wheel_separation', default=1.0)
+    bases = plugin.sizes('wheelbase', default=1.0)
+    radii = plugin.sizes('wheel_radius', default=0.2)
+    if not (separations and bases and radii):
         return
     builder.command(wheels, 'velocity')
     parameters: dict[str, Any] = {
         **{f'{n}_wheel_command_joint_name': j for n, j in zip(CORNERS, wheels, strict=True)},
-        'kinematics.wheels_radius': radius,
-        'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5 * (separation + base),
+        'kinematics.wheels_radius': radii[0],
+        'kinematics.sum_of_robot_center_projection_on_X_Y_axis': 0.5 * (separations[0] + bases[0]),
         **_limits(plugin, ('linear.x', 'linear.y', 'angular.z')),
     }
     tags = {
@@ -129,16 +124,19 @@ def _ackermann(builder: Builder, plugin: PluginElement) -> None:
     sides = [plugin.texts('right_joint'), plugin.texts('left_joint')]
     traction = [_unsteered(builder.robot, side, steering) for side in sides]
     if not all(traction) or not all(steering):
-        plugin.note('it cannot work: it does not name driven and steered joints of both sides')
+        plugin.fail('it does not name driven and steered joints of both sides')
         return
     if any(len(side) > 1 for side in sides):
         plugin.note(f'{quote_all(traction)} are driven; its other wheels roll freely')
-    sizes = {
-        'wheelbase': plugin.number('wheel_base', default=1.0),
-        'traction_track_width': plugin.number('wheel_separation', default=1.0),
-        'steering_track_width': plugin.number('kingpin_width', default=0.8),
-        'traction_wheels_radius': plugin.number('wheel_radius', default=0.2),
+    given = {
+        'wheelbase': plugin.sizes('wheel_base', default=1.0),
+        'traction_track_width': plugin.sizes('wheel_separation', default=1.0),
+        'steering_track_width': plugin.sizes('kingpin_width', default=0.8),
+        'traction_wheels_radius': plugin.sizes('wheel_radius', default=0.2),
     }
+    if not all(given.values()):
+        return
+    sizes = {name: values[0] for name, values in given.items()}
     if _can_steer(builder, plugin, traction, steering, sizes):
         parameters = _car(traction, steering, sizes)
         tags = {
@@ -160,17 +158,20 @@ def _classic_ackermann(builder: Builder, plugin: PluginElement) -> None:
     steering = [plugin.text(f'{side}_steering_joint') for side in ('right', 'left')]
     lacking = [name for name in (*rear, *front, *steering) if not robot.has_joint(name)]
     if lacking:
-        plugin.note(f'it cannot work: there is no joint {quote_all(lacking)}')
+        plugin.fail(f'there is no joint {quote_all(lacking)}')
         return
     poses = link_poses(robot, {})
     places = [poses[robot.joint(name).child].translation for name in (*rear, *front)]
     (x, right, _), (_, left, _), (ahead, front_right, _), (_, front_left, _) = places
     radii = [wheel.radius for wheel in find_wheels(robot, rear)]
+    radii = radii or plugin.sizes('wheel_radius', default=0.0)
+    if not radii:
+        return
     sizes = {
         'wheelbase': abs(ahead - x),
         'traction_track_width': abs(left - right),
         'steering_track_width': abs(front_left - front_right),
-        'traction_wheels_radius': (radii or plugin.numbers('wheel_radius') or [0.0])[0],
+        'traction_wheels_radius': radii[0],
     }
     if not _can_steer(builder, plugin, rear, steering, sizes):
         return
@@ -206,7 +207,7 @@ def _can_steer(
     ):
         return False
     if not min(sizes.values()) > 0.0:
-        plugin.note('it cannot work: distances and size of the wheels must be above 0')
+        plugin.fail('distances and size of the wheels must be above 0')
         return False
     builder.command(traction, 'velocity')
     builder.command(steering, 'position')
@@ -264,7 +265,7 @@ def _p3d(builder: Builder, plugin: PluginElement) -> None:
     link = plugin.text('body_name', 'bodyName')
     if not builder.robot.has_link(link):
         links = quote_all([each.name for each in builder.robot.links])
-        plugin.note(f'it cannot work: there is no link {quote(link)}; there are: {links}')
+        plugin.fail(f'there is no link {quote(link)}; there are: {links}')
         return
     frame = plugin.text('frame_name', 'frameName', default='world')
     if frame not in _WORLD_FRAMES and builder.robot.has_link(frame):

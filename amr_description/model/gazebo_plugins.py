@@ -24,6 +24,8 @@ from amr_description.model.gazebo import GazeboPlugin
 from amr_description.model.xml_reader import line_of, parse_number
 from amr_description.text import quote, truth
 
+SIZES = (1e-3, 100.0)
+"""m, of wheels and between them; the controllers have the same bounds."""
 CLASSIC = 'gazebo-ros-'
 """What the kinds of Gazebo Classic's ROS plugins begin with."""
 
@@ -105,6 +107,8 @@ class PluginElement:
 
     element: etree._Element
     notes: list[str] = field(default_factory=list)
+    faults: list[tuple[int, str]] = field(default_factory=list)
+    """Lines, and why a plugin that begins there, or has an element there, is left out."""
 
     @property
     def kind(self) -> str:
@@ -160,6 +164,27 @@ class PluginElement:
     def number(self, *names: str, default: float) -> float:
         """Return one number."""
         return next(iter(self.numbers(*names)), default)
+
+    def sizes(self, *names: str, default: float, per: float = 1.0) -> list[float]:
+        """
+        Return what elements of a name give as a size, m; empty, and a fault, if one is none.
+
+        Args:
+            names: of the elements, the first that is there counts.
+            default: where there is none, in what is returned.
+            per: what is written, by what is returned: 2 for a diameter that gives a radius.
+        """
+        found: list[float] = []
+        tag = next((name for name in names if self.texts(name)), names[0])
+        for each in self.element.iterchildren(tag):
+            if text := (each.text or '').strip():
+                found.append(parse_number(text) / per)
+                if not SIZES[0] <= found[-1] <= SIZES[1]:
+                    least, most = (per * bound for bound in SIZES)
+                    said = f'<{tag}> is {quote(text)}; a number from {least:g} to {most:g} m'
+                    self.fail(f'{said} will do', line_of(each))
+                    return []
+        return found or [default]
 
     def vector(self, *names: str) -> tuple[float, float, float]:
         """Return three numbers; zeros if there are not three, finite ones."""
@@ -224,6 +249,11 @@ class PluginElement:
         """Note what is to be said of it."""
         self.notes.append(f'plugin {quote(self.name or self.filename)}: {text}')
 
+    def fail(self, text: str, line: int = 0) -> None:
+        """Note that it cannot work, and why; ``line``: of an element, 0: its own."""
+        self.note(f'it cannot work: {text}')
+        self.faults.append((line or self.line, self.notes[-1]))
+
     def _number(self, name: str, text: str) -> Iterator[float]:
         word = text.lower().lstrip('+')
         value = float(word) if word.lstrip('-') in ('inf', 'nan') else parse_number(text)
@@ -233,10 +263,13 @@ class PluginElement:
             yield value
 
 
-def plugins_of(xml: etree._Element, notes: list[str]) -> Sequence[PluginElement]:
-    """Return the plugins of ``<gazebo>`` blocks, without those of sensors."""
+def plugins_of(
+    xml: etree._Element, notes: list[str], faults: list[tuple[int, str]] | None = None
+) -> Sequence[PluginElement]:
+    """Return the plugins of ``<gazebo>`` blocks, without those of sensors; they fill the lists."""
+    faults = [] if faults is None else faults
     return [
-        PluginElement(each, notes)
+        PluginElement(each, notes, faults)
         for gazebo in xml.iterchildren('gazebo')
         for each in gazebo.iterchildren('plugin')
     ]

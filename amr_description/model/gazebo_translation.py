@@ -80,7 +80,8 @@ def translate(
             return frozenset(joint.name for joint in robot.joints)
 
     builder = Builder(robot, read_hardware(xml, robot, report), claimed)
-    for plugin in sorted(plugins_of(xml, builder.notes), key=lambda each: each.kind not in FIRST):
+    plugins = plugins_of(xml, builder.notes, builder.faults)
+    for plugin in sorted(plugins, key=lambda each: each.kind not in FIRST):
         if plugin.kind in _TRANSLATORS:
             _TRANSLATORS[plugin.kind](builder, plugin)
         elif plugin.kind == 'wheel-slip':

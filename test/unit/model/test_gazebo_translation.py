@@ -536,8 +536,8 @@ def test_transmissions_of_ros_1():
         ),
         (
             gz_drive().replace('0.05', '0'),
-            'plugin "gz::sim::systems::DiffDrive": it cannot work: the separation and the size of '
-            'the wheels must be above 0',
+            'plugin "gz::sim::systems::DiffDrive": it cannot work: <wheel_radius> is "0"; a '
+            'number from 0.001 to 100 m will do',
         ),
         (
             classic_drive('<update_rate>fast</update_rate>'),

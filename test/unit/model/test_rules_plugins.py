@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """``check_urdf``: what the drive plugins of Gazebo believe of the robot, and what it is."""
 
+import re
+
 from fixtures.sim.ackermann import ackermann
 from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plugin
 import pytest
 
 from amr_description.cli import check_urdf
+from amr_description.model.gazebo_translation import translate
+from amr_description.model.urdf import parse
 
 DRIVES = ('drive:', 'diff_drive:', 'mecanum_drive:', 'ackermann_steering:')
 REAR = JOINTS.replace('>left', '>rear_left').replace('>right', '>rear_right')
@@ -29,13 +33,13 @@ def four_wheels(*plugins):
 def check(tmp_path, capsys):
     """Check a description; give the lines about its drive."""
 
-    def run(text):
+    def run(text, begin=DRIVES):
         path = tmp_path / 'robot.urdf'
         path.write_text(text)
         assert check_urdf.main([str(path)]) == 0
         lines = capsys.readouterr().err.replace(f'{path}:', '').splitlines()
         texts = [line.split(': ', 2)[2] for line in lines]
-        return [text for text in texts if text.startswith(DRIVES)]
+        return [text for text in texts if text.startswith(begin)]
 
     return run
 
@@ -90,7 +94,8 @@ def test_a_separation_that_accounts_for_scrubbing_passes(check):
     assert 'found <wheel_separation> of 0.4 m, expected about 0.6 m' in said
 
 
-def test_a_mecanum_drive_is_held_against_the_robot(check):
+def mecanum():
+    """Return a robot with new Gazebo's mecanum drive, the wheels of which it believes larger."""
     corners = ('front_left', 'front_right', 'back_left', 'back_right')
     wheels = ('left', 'right', 'rear_left', 'rear_right')
     drive = ''.join(
@@ -99,7 +104,11 @@ def test_a_mecanum_drive_is_held_against_the_robot(check):
     )
     drive += '<wheel_separation>0.3</wheel_separation><wheelbase>0.5</wheelbase>'
     drive += '<wheel_radius>0.08</wheel_radius>'
-    radius, reach = check(four_wheels(gz('mecanum-drive', 'MecanumDrive', drive)))
+    return four_wheels(gz('mecanum-drive', 'MecanumDrive', drive))
+
+
+def test_a_mecanum_drive_is_held_against_the_robot(check):
+    radius, reach = check(mecanum())
     assert radius == (
         'mecanum_drive: <wheel_radius> is not that of the robot: found 0.08 m, expected 0.05 m, '
         'the radius of the collision shape; write <wheel_radius>0.05</wheel_radius>'
@@ -110,7 +119,8 @@ def test_a_mecanum_drive_is_held_against_the_robot(check):
     )
 
 
-def test_a_car_is_held_against_the_robot(check):
+def car():
+    """Return a car of new Gazebo, which believes its axles further apart."""
     text = ackermann()
     text = text[: text.index('<ros2_control')]
     sides = ''.join(
@@ -122,10 +132,34 @@ def test_a_car_is_held_against_the_robot(check):
         '<wheel_base>0.5</wheel_base><wheel_separation>0.3</wheel_separation>'
         '<kingpin_width>0.3</kingpin_width><wheel_radius>0.06</wheel_radius>'
     )
-    car = plugin(
+    drive = plugin(
         'gz-sim-ackermann-steering-system', 'gz::sim::systems::AckermannSteering', sides + sizes
     )
-    assert check(f'{text}<gazebo>{car}</gazebo></robot>') == [
+    return f'{text}<gazebo>{drive}</gazebo></robot>'
+
+
+def test_a_car_is_held_against_the_robot(check):
+    assert check(car()) == [
         'ackermann_steering: <wheel_base> is not that of the robot: found 0.5 m, expected 0.4 m, '
         'from axle to axle; write <wheel_base>0.4</wheel_base>'
     ]
+
+
+@pytest.mark.parametrize('size', ['-0.1', '0', 'nan', 'inf', '1e300', '1e-320', 'abc', '0.1 0.1'])
+@pytest.mark.parametrize(
+    ('text', 'tag', 'per'),
+    [
+        (cart(classic_drive()), 'wheel_diameter', 2),
+        (cart(classic_drive()), 'wheel_separation', 1),
+        (cart(gz_drive()), 'wheel_radius', 1),
+        (mecanum(), 'wheelbase', 1),
+        (car(), 'kingpin_width', 1),
+    ],
+)
+def test_a_size_that_is_none_is_one_line_and_its_plugin_is_left_out(check, text, tag, per, size):
+    robot = re.sub(f'<{tag}>[^<]*<', f'<{tag}>{size}<', text)
+    said = f'<{tag}> is "{size}"; a number from {per * 0.001:g} to {per * 100} m will do'
+    (line,) = check(robot, 'plugin ')
+    assert line.endswith(f'it cannot work: {said}')
+    assert check(robot) == []
+    assert translate(parse(robot)).controllers == ()
