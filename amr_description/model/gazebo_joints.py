@@ -70,7 +70,9 @@ def _joint_command(
     if not builder.can_drive(plugin, joints, interface):
         return
     builder.command(joints, interface, initial=initial)
-    index = '' if interface == 'velocity' else f'{plugin.text("joint_index", default="0")}/'
+    index = plugin.text('joint_index', default='0')
+    # Gazebo has a bare number there, with which no part of a name of ROS may begin.
+    index = '' if interface == 'velocity' or index == '0' else f'axis_{index}/'
     inside = f'/model/{builder.robot.name}'
     default = f'{inside}/joint/{joints[0]}/{index}{suffix}'
     if sub_topic := plugin.text('sub_topic'):

@@ -32,11 +32,10 @@ FEW_LINES = 80
 # raise them were simulations without ROS (recordings, services, actions, frames, replays, films,
 # the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
 # motions, the geometry of plugins, dialects of vendors), and trials with their faults and seeds,
-# robots as environments to learn in, and arms of plugins that are tried by their topics,
-# with sizes of plugins that are none.
+# robots as environments to learn in, and arms of plugins that are tried by their topics.
 BUDGETS = {
     'modules': 843,
-    'code lines': 93_506,
+    'code lines': 93_507,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

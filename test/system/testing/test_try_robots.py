@@ -27,7 +27,7 @@ ARM = (
     + '<gazebo><plugin filename="x" name="gz::sim::systems::JointTrajectoryController">'
     '<joint_name>shoulder</joint_name><joint_name>elbow</joint_name><topic>way</topic></plugin>'
     '<plugin filename="x" name="gz::sim::systems::JointPositionController">'
-    '<joint_name>wrist</joint_name><topic>to</topic></plugin>'
+    '<joint_name>wrist</joint_name></plugin>'
     '<plugin filename="x" name="gz::sim::systems::JointController">'
     '<joint_name>spinner</joint_name><topic>speed</topic></plugin></gazebo></robot>'
 )

@@ -483,7 +483,7 @@ def test_joints_that_are_commanded_by_a_number():
     )
     position, velocity, _ = found.controllers
     assert position.name == 'left_joint_position'
-    assert position.topics == {'~/command': '/model/cart/joint/left_joint/0/cmd_pos'}
+    assert position.topics == {'~/command': '/model/cart/joint/left_joint/cmd_pos'}
     assert velocity.parameters == {'joints': ['right_joint'], 'interface_name': 'velocity'}
     assert velocity.topics == {'~/command': 'spin'}
     left, right = found.robot.plugin_hardware[0].joints
