@@ -19,6 +19,7 @@ Exit code:
 """
 
 import argparse
+from collections.abc import Sequence
 import math
 import sys
 from typing import TYPE_CHECKING
@@ -96,7 +97,8 @@ def main(argv: list[str]) -> int:
     )
     examined = examine(text, source, inputs)
     # What is wrong in the parameters comes first: the rest may be its consequence.
-    examination = Examination((*faults, *examined.findings), examined.robot)
+    found = (*faults, *examined.findings, *_own_views(examined))
+    examination = Examination(found, examined.robot)
     wheels = [wheel for drive in drives for wheel in drive.wheels]
     drop = _drop(examination, wheels) if arguments.drop else None
     code = exit_code(examination, drop, strict=arguments.strict)
@@ -292,6 +294,16 @@ def _drives_of_files(
         return (), ()
     others = wheeled_drive_faults(text, source, named_files(text, source))
     return found.drives, found.faults + others
+
+
+def _own_views(examination: Examination) -> Sequence[Finding]:
+    """Return what lidars see of a sound robot that carries them."""
+    robot = examination.robot
+    if robot is None or examination.errors or '<sensor' not in robot.text:
+        return ()
+    from amr_description.sim.own_views import own_views
+
+    return own_views(robot)
 
 
 def _drop(examination: Examination, wheels: list[str]) -> 'DropReport | None':

@@ -44,6 +44,7 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``sections.py``         what of a geom is at a height
 ``occupancy.py``        the map of a world: what is free, occupied and unknown
 ``lidar.py``            what a lidar measures
+``own_views.py``        what lidars see of the robot that carries them
 ``cameras/``            pictures of the world, in colour and depth
 ``state_copy.py``       copies of the state, for threads that measure
 ``sensor_schedule.py``  when a sensor measures, and the random numbers of its noise

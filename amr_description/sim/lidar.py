@@ -151,6 +151,20 @@ class SimulatedLidar:
             body: The id of its link.
             scene: What there is at this time.
         """
+        hits = self.hits(body, scene)
+        assert self._binding is not None, 'it was bound for the hits'
+        distances, geoms, binding = hits.distances, hits.geoms, self._binding
+        # A miss has the id -1, which is the last one here: 0.
+        intensities = binding.intensities[geoms]
+        intensities[distances > self.lidar.range_max] = 0.0
+        return LidarScan(
+            time,
+            self._measured(distances, time).astype(np.float32).reshape(self._shape),
+            intensities.reshape(self._shape),
+        )
+
+    def hits(self, body: int, scene: RayScene) -> Hits:
+        """Return what its rays meet, at the true distances, m, inf where nothing is met."""
         binding = self._binding
         if binding is None or not self.is_bound_to(scene):
             binding = self._binding = self._bind(body, scene)
@@ -162,14 +176,7 @@ class SimulatedLidar:
             is_own = binding.own.distances < distances
             distances[is_own] = binding.own.distances[is_own]
             geoms[is_own] = binding.own.geoms[is_own]
-        # A miss has the id -1, which is the last one here: 0.
-        intensities = binding.intensities[geoms]
-        intensities[distances > self.lidar.range_max] = 0.0
-        return LidarScan(
-            time,
-            self._measured(distances, time).astype(np.float32).reshape(self._shape),
-            intensities.reshape(self._shape),
-        )
+        return hits
 
     def _measured(self, distances: Floats, time: int) -> Floats:
         lidar, noise = self.lidar, self.lidar.noise
