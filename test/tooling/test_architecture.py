@@ -32,16 +32,16 @@ FEW_LINES = 80
 # raise them were simulations without ROS (recordings, services, actions, frames, replays, films,
 # the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
 # motions, the geometry of plugins, dialects of vendors, what lidars see of them), and trials with
-# their faults and seeds, robots as environments to learn in, and arms of plugins that are tried by
-# their topics.
+# their faults and seeds, robots as environments to learn in, arms of plugins that are tried by
+# their topics, and patience with a simulator that works.
 BUDGETS = {
     'modules': 844,
-    'code lines': 93_574,
+    'code lines': 93_599,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_192,
+    'code lines of helpers in test files': 26_194,
 }
 
 BASE = {
