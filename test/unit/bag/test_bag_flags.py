@@ -4,6 +4,7 @@
 
 from argparse import ArgumentParser
 import re
+import sys
 
 import pytest
 
@@ -110,7 +111,11 @@ def options(parser):
 
 
 def test_flags_and_their_values(verb, parser):
-    assert parser.format_usage().split() == ['usage:', 'ros2', *USAGE[verb].split()]
+    usage = ' '.join(USAGE[verb].split())
+    if sys.version_info >= (3, 14) and verb == 'record':
+        # Its argparse leaves out a group of two if one of them, the former positional, is hidden.
+        usage = usage.replace('[--topics Topic [Topic ...]] ', '')
+    assert parser.format_usage().split() == ['usage:', 'ros2', *usage.split()]
 
 
 def test_short_forms(verb, parser):
