@@ -21,7 +21,7 @@ PyYAML takes 20 ms to import, so programs that may do without import this module
 it.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 import math
@@ -32,6 +32,7 @@ from typing import Any, ClassVar
 
 import yaml
 
+from amr_description.ament_index import path_of
 from amr_description.errors import ParameterError
 from amr_description.text import closest_match, unwrap
 
@@ -269,6 +270,21 @@ def file_names(text: str) -> list[str]:
     if Path(text).is_file():
         return [text]
     return [name for each in text.split(',') if (name := each.strip())]
+
+
+def given_files(files: str | Path | Sequence[str | Path] | None, argument: str = '') -> list[Path]:
+    """
+    Return parameter files that are given: one, several, or names between commas.
+
+    Args:
+        files: Names, paths, or ``package://`` URIs; None, or empty: none is given.
+        argument: Of which they are the value, for the message.
+
+    Raises:
+        ResourceError: One is not there.
+    """
+    names = [files] if isinstance(files, str | Path) else files or ()
+    return [path_of(name, argument) for each in names for name in file_names(str(each))]
 
 
 def read_parameter_file(path: Path) -> dict[str, Any]:

@@ -44,19 +44,6 @@ def with_sensors(urdf: str, sensors: bool) -> str:
     return URDF_WITH_SENSORS
 
 
-def given_files(controllers: str) -> list[Path]:
-    """
-    Return the parameter files of ``controllers:=``, between commas.
-
-    Raises ResourceError: one is not there.
-    """
-    if not controllers:
-        return []
-    from amr_description.parameter_files import file_names
-
-    return [path_of(each, 'controllers') for each in file_names(controllers)]
-
-
 def controllers_files(controllers: str, urdf: str, description: str) -> list[Path]:
     """
     Return the parameter files of the controllers of a stack: one, unless several are given.
@@ -72,7 +59,9 @@ def controllers_files(controllers: str, urdf: str, description: str) -> list[Pat
         UsageError: it has to be given.
     """
     if controllers:
-        return given_files(controllers)
+        from amr_description.parameter_files import given_files
+
+        return given_files(controllers, 'controllers')
     return [_file_of(urdf, description)]
 
 

@@ -40,8 +40,8 @@ from amr_description.model.gazebo_translation import translate
 from amr_description.model.robot import Robot as Description
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf
-from amr_description.parameter_files import file_names
-from amr_description.simulation.given import given_files, GivenDescription
+from amr_description.parameter_files import file_names, given_files
+from amr_description.simulation.given import GivenDescription
 from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
 from amr_description.simulation.tracebacks import is_for_the_test, without_frames
 

@@ -18,7 +18,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         with Simulation(
-            options.robot, options.controllers, world=options.world, record=options.record
+            options.robot,
+            options.controllers,
+            world=options.world,
+            record=options.record,
+            xacro_args=options.xacro_args,
+            fixed=options.fixed,
         ) as sim:
             sim.show(port=options.port, token=options.token, wait=True)
     except AmrError as error:
@@ -42,7 +47,17 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         'controllers',
         nargs='?',
-        help='the parameter file of its controllers; default: that which the robot names',
+        help='the parameter file of its controllers, or several between commas; default: those '
+        'that the robot names',
+    )
+    parser.add_argument(
+        '--xacro-args',
+        default='',
+        metavar="'NAME:=VALUE …'",
+        help='arguments of a xacro file',
+    )
+    parser.add_argument(
+        '--fixed', action='store_true', help='fix the root link to the world, as that of an arm'
     )
     parser.add_argument(
         '--world', default='empty', help='empty, kerbs, ramp, walls, warehouse or an MJCF file'

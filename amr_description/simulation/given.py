@@ -1,18 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a simulation is given: a description, its arguments, parameter files."""
+"""What a simulation is given: a description and its arguments."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 import shlex
 from typing import Any
 
-from amr_description.ament_index import path_of
 from amr_description.errors import UsageError
 from amr_description.model.description_file import description_at, mappings_of
 from amr_description.model.fixing import fixed_to_world
-from amr_description.parameter_files import file_names
 
 
 @dataclass(frozen=True)
@@ -56,18 +53,6 @@ class GivenDescription:
             return mappings_of(shlex.split(given))
         except ValueError as error:
             raise UsageError(f'xacro_args are {given!r}: {error}') from None
-
-
-def given_files(files: str | Path | Sequence[str | Path] | None) -> list[Path]:
-    """
-    Return parameter files: of one, of several, or of names between commas.
-
-    Raises ResourceError: one is not there.
-    """
-    if files is None:
-        return []
-    names = [files] if isinstance(files, str | Path) else files
-    return [path_of(name) for each in names for name in file_names(str(each))]
 
 
 def _word(value: Any) -> str:

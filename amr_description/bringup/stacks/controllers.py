@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from amr_description.ament_index import path_of
 from amr_description.bringup import exited_cleanly, Node
 from amr_description.bringup.conditions import Condition
-from amr_description.bringup.controller_files import controllers_files, given_files, SHIPPED, URDF
+from amr_description.bringup.controller_files import controllers_files, SHIPPED, URDF
 from amr_description.bringup.input_files import Note
 from amr_description.errors import DescriptionError, UsageError
 from amr_description.text import quote_all, suggestion
@@ -115,8 +115,9 @@ def _plan(
     from amr_description.model.gazebo_bridge import bridged, read_bridge
     from amr_description.model.gazebo_translation import translate
     from amr_description.model.ros2_control_tag import hardware_of
+    from amr_description.parameter_files import given_files
 
-    given = given_files(controllers)
+    given = given_files(controllers, 'controllers')
     plugins = translate(robot, given or None, inside)
     if bridge:
         plugins = bridged(plugins, read_bridge(path_of(bridge, 'bridge')))

@@ -11,7 +11,8 @@ from amr_description.bringup.stacks.controllers import plan_controllers
 from amr_description.errors import AmrError, UsageError
 from amr_description.model.frames import Transform
 from amr_description.model.urdf import parse
-from amr_description.simulation.given import given_files, GivenDescription
+from amr_description.parameter_files import given_files
+from amr_description.simulation.given import GivenDescription
 
 XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
 <xacro:arg name="links" default="1"/><xacro:arg name="hand" default="false"/>
