@@ -45,7 +45,6 @@ from amr_description.ros.service_calls import (
     ServiceReadiness,
     wait_until,
 )
-from amr_description.ros.wait_clock import WaitClock
 from amr_description.simulation.tracebacks import is_for_the_test, without_frames
 from amr_description.testing.program import SimulatorProcess
 
@@ -53,8 +52,6 @@ __tracebackhide__ = is_for_the_test
 
 TIMEOUT = 30.0
 """s of the wall clock, for every wait."""
-_LONGEST_WORK = 300.0
-"""s of the wall clock that a simulator may work on an answer besides."""
 _RETRY_DELAY = 0.05
 """s until a command counts as lost and is published again; doubled after each attempt."""
 _MAX_STEPS = 1000
@@ -64,27 +61,6 @@ _GUID_PREFIX = 12
 """Bytes of an endpoint's GUID that are its participant's (DDSI-RTPS 2.5, 9.3.1)."""
 
 Condition: TypeAlias = Callable[[], Any]
-
-
-class PatientClock(WaitClock):
-    """
-    Of a wait for a simulator: the time in which that has not worked.
-
-    The meshes of a robot take seconds of the processor, on a busy machine minutes. A simulator
-    that hangs does nothing meanwhile; of one that never ends what it does, some minutes count.
-    """
-
-    def __init__(self, process: SimulatorProcess) -> None:
-        """Begin a wait for ``process``."""
-        super().__init__()
-        self._process = process
-        self._began, self._before = super().now(), process.worked()
-
-    def now(self) -> float:
-        """Return the time, s."""
-        now = super().now()
-        worked = min(self._process.worked() - self._before, _LONGEST_WORK)
-        return now - min(max(0.0, worked), now - self._began)
 
 
 class LockStep:
@@ -297,21 +273,14 @@ class LockStep:
         )
 
     @without_frames
-    def wait(
-        self,
-        condition: Condition,
-        what: str,
-        timeout: float | None = None,
-        clock: WaitClock | None = None,
-    ) -> Any:
+    def wait(self, condition: Condition, what: str, timeout: float | None = None) -> Any:
         """
         Spin the node until a condition holds; return what it returned.
 
         Args:
             condition: Called repeatedly; holds when its result is true.
             what: What is waited for, for the error.
-            timeout: s of the clock, :data:`TIMEOUT` by default.
-            clock: None: that of the wall.
+            timeout: s of the wall clock, :data:`TIMEOUT` by default.
 
         Raises:
             SimulationError: It does not hold in time, or the simulator has ended.
@@ -322,7 +291,7 @@ class LockStep:
             self._process.check()
             return condition() or None
 
-        found = wait_until(self.node, holds, timeout=timeout, clock=clock)
+        found = wait_until(self.node, holds, timeout=timeout)
         if found is None:
             raise SimulationError(f'waited {timeout:g} s for {what}, in vain')
         return found
@@ -337,7 +306,7 @@ class LockStep:
         client = self._client(service_type, name)
         self.wait(ServiceReadiness(self.node, client), f"the simulator's service {name}")
         future = client.call_async(request)
-        self.wait(future.done, f'the answer of {name}', clock=PatientClock(self._process))
+        self.wait(future.done, f'the answer of {name}')
         return future.result()
 
     def _client(self, service_type: Any, name: str = '') -> Client:

@@ -12,7 +12,7 @@ on this host, is noticed: by :func:`require_alone` at the start, then by
 
 from collections import deque
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 import fcntl
 import os
 from pathlib import Path
@@ -25,7 +25,6 @@ from typing import Any
 
 import amr_description
 from amr_description.bringup.command_line import yaml_text
-from amr_description.clock import NANOSECONDS
 from amr_description.entry import LIFELINE_VARIABLE
 from amr_description.errors import SimulationError
 from amr_description.ros.local_participants import discovery_sockets, foreign_sockets, owner_of
@@ -84,15 +83,6 @@ class SimulatorProcess:
     def has_ended(self) -> bool:
         """Whether it was ended, or ended by itself."""
         return self.process.poll() is not None
-
-    def worked(self) -> float:
-        """Return how long its threads have run, or waited for a processor, s; 0: unknown."""
-        worked = 0
-        for file in Path(f'/proc/{self.process.pid}/task').glob('*/schedstat'):
-            with suppress(OSError):  # the thread has ended
-                running, waiting, _ = map(int, file.read_text(encoding='ascii').split())
-                worked += running + waiting
-        return worked / NANOSECONDS
 
     def keep_log(self) -> None:
         """Read the log for the last time: the file will be removed."""
