@@ -36,12 +36,12 @@ FEW_LINES = 80
 # their topics, and patience with a simulator that works.
 BUDGETS = {
     'modules': 844,
-    'code lines': 93_607,
+    'code lines': 93_582,
     'small modules of one importer beside them': 45,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_200,
+    'code lines of helpers in test files': 26_198,
 }
 
 BASE = {
