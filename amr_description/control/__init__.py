@@ -22,7 +22,6 @@ ros2_control without ROS: no ROS, no simulator, no clock. One thread, the contro
 ``controller_list.py``       all controllers of a manager, in that order
 ``switching.py``             switch_controller: request, checks, plan, execution
 ``failure_handling.py``      controllers that fail are deactivated, fallbacks activated
-``cycle_plan.py``            a tick as one flat run of calls, until something changes
 ``controller_manager.py``    load, configure, switch; read → update → write
 
 ``manager_parameters.py``    the parameters of a manager, and those of every controller

@@ -16,12 +16,6 @@ from typing import Any
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Controller
 from amr_description.control.controller_list import ControllerList
-from amr_description.control.cycle_plan import (
-    CyclePlan,
-    Failure,
-    plan_of,
-    UpdateFailure,
-)
 from amr_description.control.failure_handling import FailureHandler
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.loaded_controller import (
@@ -29,11 +23,7 @@ from amr_description.control.loaded_controller import (
     LoadedController,
     TransitionCallback,
 )
-from amr_description.control.resource_manager import (
-    ReadFailure,
-    ResourceManager,
-    WriteFailure,
-)
+from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.snapshot import ManagerSnapshot, take_snapshot
 from amr_description.control.statistics import RunningStatistic
 from amr_description.control.switching import (
@@ -155,8 +145,6 @@ class ControllerManager:
         self.snapshot = ManagerSnapshot()
         self._log = log
         self._last_tick: int | None = None
-        self._plan: CyclePlan | None = None
-        self._is_plan_due = True
         self._controllers = ControllerList()
         self._execution = SwitchExecution(self._controllers, resources, log)
         self._failures = FailureHandler(self._controllers, resources, self._execution, log)
@@ -168,8 +156,7 @@ class ControllerManager:
         return tuple(self._controllers)
 
     def refresh(self) -> None:
-        """Take a new snapshot, after any change; the ticks are planned anew."""
-        self._forget_plan()
+        """Take a new snapshot, after any change."""
         self.snapshot = take_snapshot(self._controllers, self.resources, self.update_rate)
         self.on_change(self.snapshot)
 
@@ -387,21 +374,19 @@ class ControllerManager:
         self.next_tick = time - time % self.period + self.period
         last, self._last_tick = self._last_tick, time
         period = self.period if last is None else time - last
-        plan = self._plan
-        if plan is None or last is None or self.warns_of_overruns or not plan.holds():
-            self._tick_plainly(time, period)
-            if self._is_plan_due:
-                self._is_plan_due = False
-                self._plan = plan_of(self.resources, self._controllers.ordered, time)
-        elif failure := plan.run(time, period):
-            self._go_on_plainly(failure, time, period)
+        if self.warns_of_overruns:
+            self._tick_in_time(time, period)
+        else:
+            self._read(time, period)
+            self._update(time, period)
+            self._write(time, period)
         if last is not None and period > 0:
             self.periodicity.add(NANOSECONDS / period)
         if self.on_tick is not None:
             self.on_tick(time)
 
-    def _tick_plainly(self, time: int, period: int) -> None:
-        """Read, update, write: what is due now, and whatever fails."""
+    def _tick_in_time(self, time: int, period: int) -> None:
+        """Read, update, write, and warn if that takes longer than a period."""
         stopwatch = self.resources.stopwatch
         begin = stopwatch()
         self._read(time, period)
@@ -410,40 +395,17 @@ class ControllerManager:
         after_update = stopwatch()
         self._write(time, period)
         end = stopwatch()
-        if self.warns_of_overruns and end - begin > self.period:
+        if end - begin > self.period:
             update = after_update - after_read
             self._warn_of_overrun(after_read - begin, update, end - after_update)
 
-    def _go_on_plainly(self, failure: Failure, time: int, period: int) -> None:
-        """End the tick of a plan that did not come to its end."""
-        self._forget_plan()
-        if isinstance(failure, ReadFailure):
-            self._read(time, period, failure)
-            self._update(time, period)
-            self._write(time, period)
-        elif isinstance(failure, UpdateFailure):
-            self._update(time, period, failure)
-            self._write(time, period)
-        else:
-            self._write(time, period, failure)
-
-    def _forget_plan(self) -> None:
-        """Have a plan made anew, after a plain tick."""
-        self._plan = None
-        self._is_plan_due = True
-
-    def _read(self, time: int, period: int, failure: ReadFailure | None = None) -> None:
-        if lost := self.resources.read(time, period, failure):
+    def _read(self, time: int, period: int) -> None:
+        if lost := self.resources.read(time, period):
             self._deactivate_orphans(lost, time)
 
-    def _update(self, time: int, period: int, failure: UpdateFailure | None = None) -> None:
+    def _update(self, time: int, period: int) -> None:
         failed: list[LoadedController] = []
-        waiting = self._controllers.ordered
-        if failure is not None:  # it has begun already
-            failed.append(failure.controller)
-            self._failures.log_failure('updating', failure.controller, failure.error)
-            waiting = waiting[waiting.index(failure.controller) + 1 :]
-        for controller in waiting:
+        for controller in self._controllers.ordered:
             if controller.state is _ACTIVE:
                 try:
                     controller.update(time, self.period)
@@ -455,8 +417,8 @@ class ControllerManager:
             self.refresh()
         self.resources.enforce_limits(period)
 
-    def _write(self, time: int, period: int, failure: WriteFailure | None = None) -> None:
-        lost = self.resources.write(time, period, failure)
+    def _write(self, time: int, period: int) -> None:
+        lost = self.resources.write(time, period)
         if not lost:
             return
         if self.defaults.deactivate_controllers_on_hardware_self_deactivate:

@@ -8,7 +8,12 @@ from typing import TypeVar
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import HardwareComponent
 from amr_description.control.interfaces import Handle, LifecycleState
-from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
+from amr_description.control.statistics import (
+    RunningCycleStatistic,
+    Stopwatch,
+    unmeasured,
+    zero_clock,
+)
 from amr_description.errors import HardwareError
 from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareType
@@ -70,6 +75,7 @@ class LoadedComponent:
         """Likewise of its writes."""
         self._rate = self.info.rw_rate
         self._stopwatch = stopwatch
+        self._is_measured = stopwatch is not unmeasured
         self._log = log
         self.last_read: int | None = None
         """When it was read, ns; None: not since a transition, or a jump of the clock."""
@@ -154,7 +160,7 @@ class LoadedComponent:
         Raises:
             Exception: whatever the component raises.
         """
-        if not self.is_available:
+        if self.state is not _ACTIVE and self.state is not _INACTIVE:
             return
         last = self.last_read
         if self._rate:
@@ -165,8 +171,9 @@ class LoadedComponent:
         self.last_read = time
         begin = self._stopwatch()
         self.component.read(time, period)
-        duration = self._stopwatch() - begin
-        self.read_statistic.add(duration, None if last is None else time - last)
+        if self._is_measured:
+            passed = None if last is None else time - last
+            self.read_statistic.add(self._stopwatch() - begin, passed)
 
     def write(self, time: int, period: int) -> None:
         """Write it if it is active, not a sensor, and due; arguments as of :meth:`read`."""
@@ -181,8 +188,9 @@ class LoadedComponent:
         self.last_write = time
         begin = self._stopwatch()
         self.component.write(time, period)
-        duration = self._stopwatch() - begin
-        self.write_statistic.add(duration, None if last is None else time - last)
+        if self._is_measured:
+            passed = None if last is None else time - last
+            self.write_statistic.add(self._stopwatch() - begin, passed)
 
     def _elapsed(self, last: int | None, time: int, period: int) -> int | None:
         """

@@ -17,7 +17,12 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.statistics import RunningCycleStatistic, Stopwatch, zero_clock
+from amr_description.control.statistics import (
+    RunningCycleStatistic,
+    Stopwatch,
+    unmeasured,
+    zero_clock,
+)
 from amr_description.errors import ControllerError
 
 TransitionCallback: TypeAlias = Callable[
@@ -55,6 +60,7 @@ class LoadedController:
         """
         self._on_transition = on_transition
         self._stopwatch = stopwatch
+        self._is_measured = stopwatch is not unmeasured
         self.statistic = RunningCycleStatistic()
         """Of its updates since it was activated."""
         self.fallbacks = tuple(fallbacks)
@@ -212,7 +218,8 @@ class LoadedController:
         period = nominal_period * divisor if last is None else time - last
         begin = self._stopwatch()
         self.controller.update(time, period)
-        self.statistic.add(self._stopwatch() - begin, None if last is None else period)
+        if self._is_measured:
+            self.statistic.add(self._stopwatch() - begin, None if last is None else period)
 
     def deactivate(self, resources: ResourceManager, time: int) -> None:
         """Active → inactive, even if its ``deactivate`` raises; ``time`` in ns."""

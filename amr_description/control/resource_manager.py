@@ -12,7 +12,6 @@ hardware component, which refuses it and is brought down: a single message with 
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain
 import math
 from typing import Any, TYPE_CHECKING
@@ -48,22 +47,6 @@ if TYPE_CHECKING:
     from amr_description.model.robot import Robot
 
 
-@dataclass(frozen=True, slots=True)
-class ReadFailure:
-    """Reading ``component`` has raised; those after it have not been read."""
-
-    component: LoadedComponent
-    error: Exception
-
-
-@dataclass(frozen=True, slots=True)
-class WriteFailure:
-    """Writing ``component`` has raised; those after it have not been written."""
-
-    component: LoadedComponent
-    error: Exception
-
-
 class ResourceManager:
     """The hardware components of one robot, in the order of its description; see the module."""
 
@@ -86,6 +69,8 @@ class ResourceManager:
         self.log = log
         self.stopwatch = stopwatch
         self.components: dict[str, LoadedComponent] = {}
+        self._ordered: tuple[LoadedComponent, ...] = ()
+        """The same, as each cycle runs through them."""
         self.claims: dict[str, str] = {}
         """Command interface → the controller that has claimed it."""
         self.lends_commands_of_inactive = False
@@ -152,6 +137,7 @@ class ResourceManager:
         if self._enforces_limits:
             self._limiters[name] = limiters_of(loaded, self._robot, self.log)
         self.components[name] = loaded
+        self._ordered = (*self._ordered, loaded)
         self._ranges = (*self._ranges, CommandRanges(loaded, self._limiters.get(name, ())))
 
     def set_state(self, name: str, target: LifecycleState) -> None:
@@ -376,50 +362,39 @@ class ResourceManager:
                 lost += self._handle_failure(loaded, 'reset', error)
         return lost
 
-    def read(self, time: int, period: int, failure: ReadFailure | None = None) -> list[str]:
+    def read(self, time: int, period: int) -> Sequence[str]:
         """
         Read every available component that is due.
 
         Args:
             time: of this tick, ns.
             period: since the previous tick, ns.
-            failure: where it has begun already: go on from there.
 
         Returns:
             The names of those that failed and were brought down, along with their groups.
         """
-        lost: list[str] = []
-        for loaded in self._after(failure, 'read', lost):
+        lost: Sequence[str] = ()
+        for loaded in self._ordered:
             try:
                 loaded.read(time, period)
             except Exception as error:  # a third-party component may raise anything
-                lost += self._handle_failure(loaded, 'read', error)
+                lost = [*lost, *self._handle_failure(loaded, 'read', error)]
         return lost
 
-    def write(self, time: int, period: int, failure: WriteFailure | None = None) -> list[str]:
+    def write(self, time: int, period: int) -> Sequence[str]:
         """
         Write every active component that is due; arguments as of :meth:`read`.
 
         Returns the names of those that are no longer active: brought down along with their groups,
         or inactive if they asked for that.
         """
-        lost: list[str] = []
-        for loaded in self._after(failure, 'write', lost):
+        lost: Sequence[str] = ()
+        for loaded in self._ordered:
             try:
                 loaded.write(time, period)
             except Exception as error:
-                lost += self._handle_failure(loaded, 'write', error)
+                lost = [*lost, *self._handle_failure(loaded, 'write', error)]
         return lost
-
-    def _after(
-        self, failure: ReadFailure | WriteFailure | None, action: str, lost: list[str]
-    ) -> Iterable[LoadedComponent]:
-        """Handle a failure, and return the components after it; all, if there is none."""
-        loaded = list(self.components.values())
-        if failure is None:
-            return loaded
-        lost += self._handle_failure(failure.component, action, failure.error)
-        return loaded[loaded.index(failure.component) + 1 :]
 
     def _handle_failure(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:
         """Deactivate a component that asks for it, or bring it and its group down."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""A planned tick and a plain one are the same to plugins, logs and statistics, whatever fails."""
+"""What a tick calls, in which order and how often, whatever fails or is switched between ticks."""
 
 from contextlib import suppress
 
@@ -10,9 +10,9 @@ from support.control_fakes import FakeChainable, FakeController, FakeHardware, F
 from support.examples import examples
 
 from amr_description.control.controller_manager import ControllerManager, ManagerDefaults
-from amr_description.control.cycle_plan import CyclePlan
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
+from amr_description.control.statistics import unmeasured
 from amr_description.control.switching import Strictness
 from amr_description.errors import AmrError, HardwareDeactivationError, HardwareError
 from amr_description.log import Severity
@@ -65,17 +65,10 @@ def noting(kind):
 Controller, Chainable = noting(FakeController), noting(FakeChainable)
 
 
-class PlainManager(ControllerManager):
-    """One that never plans."""
-
-    def _forget_plan(self):
-        self._plan, self._is_plan_due = None, False
-
-
 class Bench:
     """A manager with three components and four controllers."""
 
-    def __init__(self, manager_type, rw_rate=0, update_rate=100, deactivates=True):
+    def __init__(self, rw_rate=0, update_rate=100, deactivates=True):
         self.diary, self.log, self.time = Diary(), FakeLog(), 0
         self.hardware = {
             'left': Hardware(self.diary, ['a'], 'left', group='base'),
@@ -87,7 +80,7 @@ class Bench:
             resources.add(component)
             resources.set_state(name, LifecycleState.ACTIVE)
         defaults = ManagerDefaults(deactivate_controllers_on_hardware_self_deactivate=deactivates)
-        self.manager = manager_type(resources, 100, self.log, PERIOD, defaults)
+        self.manager = ControllerManager(resources, 100, self.log, PERIOD, defaults)
         chain = Chainable('chain', ['b/velocity'])
         self.controllers = {
             each.context.name: each
@@ -133,20 +126,6 @@ class Bench:
         self.time = time
         getattr(self.manager, method)(time)
 
-    def seen(self):
-        """All that is to be the same."""
-        components = self.manager.resources.components.values()
-        return (
-            self.diary.calls,
-            self.log.texts(Severity.INFO),
-            self.manager.snapshot,
-            self.manager.next_tick,
-            repr(self.manager.periodicity.result()),
-            [repr(each.read_statistic.result()) for each in components],
-            [repr(each.write_statistic.result()) for each in components],
-            [repr(each.statistic.result()) for each in self.manager.loaded],
-        )
-
 
 HARDWARE, CONTROLLERS = ('left', 'right', 'eye'), ('one', 'two', 'head', 'chain', 'spare')
 STATES = (LifecycleState.UNCONFIGURED, LifecycleState.INACTIVE, LifecycleState.ACTIVE)
@@ -173,66 +152,120 @@ EVENTS = st.one_of(
 )
 
 
-@examples(50)
+PHASES = ('read', 'update', 'write')
+
+
+def states_of(bench):
+    """The state of each plugin, by its name."""
+    manager = bench.manager
+    return {
+        **{each.name: each.state for each in manager.loaded},
+        **{name: each.state for name, each in manager.resources.components.items()},
+    }
+
+
+def tick_by_law(bench, passed):
+    """Tick, and hold what was called to what a tick is."""
+    before, first = states_of(bench), len(bench.diary.calls)
+    order = [*HARDWARE, *(each.name for each in bench.manager.loaded)]
+    bench.tick(passed)
+    calls, after = bench.diary.calls[first:], states_of(bench)
+    places = [(PHASES.index(method), order.index(plugin)) for plugin, method, *_ in calls]
+    assert places == sorted(set(places))  # read, update, write; each in order, and once
+    for plugin, method, time, *_ in calls:
+        assert time == bench.time
+        if plugin in HARDWARE:
+            least = LifecycleState.ACTIVE if method == 'write' else LifecycleState.INACTIVE
+            assert before[plugin] >= least
+    called = {(plugin, method) for plugin, method, *_ in calls}
+    is_active = {
+        name: before[name] is after[name] is LifecycleState.ACTIVE for name in (*order, 'spare')
+    }
+    for name in HARDWARE:
+        if is_active[name] and not bench.hardware[name].info.rw_rate:
+            assert (name, 'read') in called
+            assert ((name, 'write') in called) == (name != 'eye')
+    for name in CONTROLLERS:
+        if before[name] is not LifecycleState.ACTIVE is not after[name]:
+            assert (name, 'update') not in called
+        if is_active[name] and name != 'one':  # which may have a rate of its own
+            assert (name, 'update') in called
+
+
+@examples(100)
 @given(
     st.lists(EVENTS, max_size=25),
     st.sampled_from([0, 0, 50]),
     st.sampled_from([100, 100, 25]),
     st.booleans(),
 )
-def test_a_planned_tick_is_a_plain_one(events, rw_rate, update_rate, deactivates):
-    planned, plain = (
-        Bench(kind, rw_rate, update_rate, deactivates)
-        for kind in (ControllerManager, PlainManager)
-    )
-    for bench in (planned, plain):
-        for method, *arguments in [('tick',), ('tick',), *events, ('tick',), ('tick',)]:
+def test_a_tick_calls_what_is_due_once_and_in_order(events, rw_rate, update_rate, deactivates):
+    bench = Bench(rw_rate, update_rate, deactivates)
+    for method, *arguments in [('tick',), ('tick',), *events, ('tick',), ('tick',)]:
+        if method == 'tick':
+            tick_by_law(bench, *arguments or (PERIOD,))
+        else:
             getattr(bench, method)(*arguments)
-    for one, other in zip(planned.seen(), plain.seen(), strict=True):
-        assert one == other
+
+
+def after(calls, plugin, method):
+    """What was called after this call."""
+    names = [each[:2] for each in calls]
+    return names[names.index((plugin, method)) + 1 :]
 
 
 @pytest.mark.parametrize(
-    'plugin, method',
-    [('left', 'read'), ('right', 'read'), ('eye', 'read'), ('left', 'write'), ('right', 'write')]
-    + [(name, 'update') for name in ('one', 'two', 'head', 'chain')],
+    'plugin, method, gone',
+    [
+        # its group is brought down, and with it the controllers that command it
+        ('left', 'read', {'left', 'right', 'one', 'two', 'chain', 'head'}),
+        ('right', 'read', {'left', 'right', 'one', 'two', 'chain', 'head'}),
+        ('eye', 'read', {'eye'}),
+        ('left', 'write', {'left', 'right'}),
+        ('right', 'write', set()),
+        ('one', 'update', set()),
+        ('two', 'update', set()),
+        ('head', 'update', set()),
+        ('chain', 'update', set()),
+    ],
 )
-@pytest.mark.parametrize('error', [ValueError('a bug'), HardwareDeactivationError('enough')])
-def test_the_tick_of_a_plan_goes_on_plainly_where_a_plugin_raises(plugin, method, error):
-    benches = Bench(ControllerManager), Bench(PlainManager)
-    for bench in benches:
-        for _ in range(3):
-            bench.tick()
-        assert (bench.manager._plan is None) == (bench is benches[1])
-        bench.fail(plugin, method, error)
-        bench.tick()
-        bench.fail(plugin, method, None)
-        for _ in range(3):
-            bench.tick()
-    planned, plain = (bench.seen() for bench in benches)
-    assert planned == plain
-    assert str(error) in str(benches[0].log.lines)
-
-
-def test_ticks_are_planned_once_all_has_been_called_and_anew_after_each_change(monkeypatch):
-    made, run = [], CyclePlan.run
-    monkeypatch.setattr(CyclePlan, 'run', lambda *args: made.append(args[0]) or run(*args))
-    bench = Bench(ControllerManager)
-    bench.tick()
-    assert made == []  # the first one finds out that all are due
+def test_a_tick_goes_on_where_a_plugin_raises(plugin, method, gone):
+    bench = Bench()
     for _ in range(3):
         bench.tick()
-    assert len(made) == 3
-    bench.switch([], ['two'])
+    whole = len(bench.diary.calls) // 3
+    usual = after(bench.diary.calls[-whole:], plugin, method)
+    bench.fail(plugin, method, ValueError('a bug'))
     bench.tick()
-    bench.tick()
-    assert len(made) == 4
-    assert made[0] is made[2] is not made[3]
+    rest = after(bench.diary.calls[3 * whole :], plugin, method)
+    assert [each for each in rest if each[0] != 'spare'] == [
+        each for each in usual if each[0] not in gone
+    ]
+    assert ('spare', 'update') not in rest  # the fallback is updated from the next tick on
+    assert 'a bug' in str(bench.log.lines)
 
 
-def test_what_has_a_rate_of_its_own_is_not_planned():
-    for options in ({'rw_rate': 50}, {'update_rate': 25}):
-        bench = Bench(ControllerManager, **options)
-        for _ in range(3):
-            bench.tick()
-        assert bench.manager._plan is None
+def test_a_tick_that_raises_counts_in_no_statistic():
+    bench = Bench()
+    for _ in range(3):
+        bench.tick()
+    bench.fail('eye', 'read', ValueError('a bug'))
+    bench.fail('two', 'update', ValueError('a bug'))
+    bench.tick()
+    eye = bench.manager.resources.components['eye']
+    two = next(each for each in bench.manager.loaded if each.name == 'two')
+    assert eye.read_statistic.result().execution_time.count == 3
+    assert two.statistic.result().execution_time.count == 3
+
+
+def test_a_robot_that_nobody_measures_has_no_statistics():
+    resources = ResourceManager(FakeLog(), stopwatch=unmeasured)
+    resources.add(FakeHardware(['a'], 'left'))
+    resources.set_state('left', LifecycleState.ACTIVE)
+    manager = ControllerManager(resources, 100, FakeLog(), PERIOD)
+    for time in (PERIOD, 2 * PERIOD):
+        manager.tick(time)
+    left = resources.components['left']
+    assert left.component.faults == {}
+    assert left.read_statistic.result().execution_time.count == 0
+    assert left.write_statistic.result().periodicity.count == 0
