@@ -261,7 +261,7 @@ def _drives(
     files = _drives_of_files(paths, text, source)
     if '<plugin' not in text:
         return files
-    from amr_description.controllers.drive_files import plugins_in
+    from amr_description.controllers.checks.drive_files import plugins_in
 
     plugins = plugins_in(text, source)
     return (*files[0], *plugins.drives), (*files[1], *plugins.faults)
@@ -273,14 +273,14 @@ def _drives_of_files(
     """Return those of parameter files, as :func:`_drives` does."""
     if not paths and '<parameters>' not in text:
         return (), ()
-    from amr_description.controllers.drive_files import (
+    from amr_description.controllers.checks.drive_files import (
         drives_named_by,
         examine_drive_files,
         manager_names,
         named_files,
         no_drive,
     )
-    from amr_description.controllers.wheeled_drive_files import wheeled_drive_faults
+    from amr_description.controllers.checks.wheeled_drive_files import wheeled_drive_faults
 
     if paths:
         found = examine_drive_files(paths, manager_names(text, source))

@@ -16,14 +16,14 @@ from amr_description.control.controller_manager import ManagerDefaults
 from amr_description.control.manager_parameters import ControllerEntry, ManagerTable
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.parameter_store import ParameterStore
-from amr_description.controllers.parameter_faults import (
+from amr_description.controllers.checks.parameter_faults import (
     controller_parameters,
     errors_of,
     manager_faults,
     type_fault,
     type_here,
 )
-from amr_description.controllers.parameter_sections import listed_controllers, read_sections
+from amr_description.controllers.checks.parameter_sections import listed_controllers, read_sections
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.log import Log, Severity
 from amr_description.model.findings import Finding

@@ -23,7 +23,7 @@ from amr_description.control.manager_parameters import ControllerEntry
 from amr_description.control.switching import Strictness
 from amr_description.controller_manager.parameters import ManagerParameters
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.parameter_faults import taken_as, type_here
+from amr_description.controllers.checks.parameter_faults import taken_as, type_here
 from amr_description.errors import AmrError, ControllerError
 from amr_description.log import Log, Severity
 from amr_description.model.robot import Robot

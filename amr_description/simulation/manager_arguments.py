@@ -5,8 +5,11 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from amr_description.controllers.drive_files import drive_warnings, plugin_warnings
-from amr_description.controllers.roller_files import rollers_of_controllers, rollers_of_plugins
+from amr_description.controllers.checks.drive_files import drive_warnings, plugin_warnings
+from amr_description.controllers.checks.wheeled_drive_files import (
+    rollers_of_controllers,
+    rollers_of_plugins,
+)
 from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of, missing_files, named_files
 from amr_description.model.gazebo import ros2_control_host_of

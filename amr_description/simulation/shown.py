@@ -18,7 +18,7 @@ import time as wall
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import Input
 from amr_description.control.samples import FlagSample
-from amr_description.controllers.wheeled_drive import EMERGENCY_STOP
+from amr_description.controllers.drives.wheeled_drive import EMERGENCY_STOP
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Vector
 from amr_description.sim.world import MujocoWorld

@@ -14,8 +14,10 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.samples import TwistSample
-from amr_description.controllers.diff_drive_controller import DiffDriveController
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.drives.diff_drive_controller import (
+    DiffDriveController,
+    DiffDriveParameters,
+)
 from amr_description.parameters import build
 
 WHEELS = {'left_wheel_names': ['left_wheel'], 'right_wheel_names': ['right_wheel']}

@@ -23,7 +23,7 @@ from support.paths import ROOT
 
 from amr_description.cli.check_urdf import exit_code
 from amr_description.cli.urdf_report import refusal, to_json, tree_lines
-from amr_description.controllers.drive_files import read_drives
+from amr_description.controllers.checks.drive_files import read_drives
 from amr_description.errors import AmrError
 from amr_description.model import checks, kinematics, urdf
 from amr_description.model.checks.context import CheckInputs

@@ -19,11 +19,13 @@ from support.paths import ROOT
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.samples import TwistSample
-from amr_description.controllers.diff_drive_controller import DiffDriveController
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
-from amr_description.controllers.joint_state_broadcaster import (
+from amr_description.controllers.broadcasters.joint_state_broadcaster import (
     BroadcasterParameters,
     JointStateBroadcaster,
+)
+from amr_description.controllers.drives.diff_drive_controller import (
+    DiffDriveController,
+    DiffDriveParameters,
 )
 from amr_description.hardware.mock_system import MockSystem
 from amr_description.model.ros2_control_tag import hardware_of

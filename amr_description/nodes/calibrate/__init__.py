@@ -26,7 +26,12 @@ import threading
 from rclpy.node import Node
 
 from amr_description.argument_types import positive
-from amr_description.controllers.drive_calibration import CalibrationRun, fit, Geometry, yaw_error
+from amr_description.controllers.checks.drive_calibration import (
+    CalibrationRun,
+    fit,
+    Geometry,
+    yaw_error,
+)
 from amr_description.nodes.calibrate.drive import CalibrationDrive, Manoeuvre
 from amr_description.ros.runtime import program, ros
 from amr_description.ros.service_calls import client_node

@@ -20,7 +20,12 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from amr_description.clock import NANOSECONDS
-from amr_description.controllers.drive_calibration import CalibrationRun, Geometry, Path, Travel
+from amr_description.controllers.checks.drive_calibration import (
+    CalibrationRun,
+    Geometry,
+    Path,
+    Travel,
+)
 from amr_description.errors import CalibrationError
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds, transform_of

@@ -20,7 +20,7 @@ from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.control.ros.pacing import WallPacer
 from amr_description.control.ros.status_topics import DiagnosticsTopic
 from amr_description.controller_manager.parameters import ManagerParameters
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveParameters
 from amr_description.errors import AmrError, ParameterError
 from amr_description.log import null_log
 from amr_description.nodes.joint_state_publisher import (

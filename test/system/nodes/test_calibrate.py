@@ -16,7 +16,7 @@ from support.ros_processes import ROOT, run, running
 from support.running_programs import PATIENCE, Program
 
 from amr_description.clock import NANOSECONDS
-from amr_description.controllers.drive_calibration import CalibrationRun, Geometry, Travel
+from amr_description.controllers.checks.drive_calibration import CalibrationRun, Geometry, Travel
 from amr_description.nodes.calibrate import manoeuvres, patch, report
 from amr_description.nodes.calibrate.drive import DriveTrack
 from amr_description.ros.messages import fill_stamp

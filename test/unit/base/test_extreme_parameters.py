@@ -16,7 +16,7 @@ from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.samples import OdometrySample, TwistSample
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveParameters
 from amr_description.errors import ControllerError, HardwareError, ParameterError
 from amr_description.hardware.serial_link import open_port, SerialParameters
 from amr_description.hardware.serial_protocol import encode, Set

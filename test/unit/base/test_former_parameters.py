@@ -6,13 +6,13 @@ import math
 
 import pytest
 
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.broadcasters.joint_state_broadcaster import BroadcasterParameters
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveParameters
+from amr_description.controllers.drives.mecanum_drive_controller import MecanumDriveParameters
+from amr_description.controllers.drives.tricycle_controller import TricycleParameters
 from amr_description.controllers.forward_command_controller import ForwardCommandParameters
-from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
-from amr_description.controllers.joint_trajectory_parameters import JointTrajectoryParameters
-from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
+from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
 from amr_description.controllers.pid_controller import PidParameters
-from amr_description.controllers.tricycle_controller import TricycleParameters
 from amr_description.former_parameters import understand
 
 BRAKES = {'linear.x.max_acceleration': 1.0, 'linear.x.min_acceleration': -3.0}

@@ -12,8 +12,8 @@ import pytest
 from support.control_fakes import FIXTURES
 from support.deferred_annotations import DeferredTable
 
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
-from amr_description.controllers.joint_state_broadcaster import BroadcasterParameters
+from amr_description.controllers.broadcasters.joint_state_broadcaster import BroadcasterParameters
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveParameters
 from amr_description.errors import ParameterError
 from amr_description.parameters import build, group, keyed_group, parameter, specs
 

@@ -28,11 +28,13 @@ from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import ALL_INTERFACES, LifecycleState
 from amr_description.control.samples import TwistSample
 from amr_description.control.switching import Strictness
-from amr_description.controllers.diff_drive_controller import DiffDriveController
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
-from amr_description.controllers.joint_state_broadcaster import (
+from amr_description.controllers.broadcasters.joint_state_broadcaster import (
     BroadcasterParameters,
     JointStateBroadcaster,
+)
+from amr_description.controllers.drives.diff_drive_controller import (
+    DiffDriveController,
+    DiffDriveParameters,
 )
 from amr_description.errors import ControllerError
 from amr_description.log import Severity

@@ -15,7 +15,6 @@ from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.statistics import unmeasured
 from amr_description.control.switching import Strictness
 from amr_description.errors import AmrError, HardwareDeactivationError, HardwareError
-from amr_description.log import Severity
 from amr_description.model.hardware_info import HardwareType
 
 PERIOD = 10 * MS

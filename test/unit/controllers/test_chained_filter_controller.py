@@ -9,14 +9,16 @@ from support.control_fakes import collect, FakeLog, MS
 
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import StateInterface
-from amr_description.controllers.chained_filter_controller import (
-    ChainedFilter,
-    ChainedFilterParameters,
-)
-from amr_description.controllers.filters import FilterChain, FilterParameters, FilterSettings
-from amr_description.controllers.force_torque_sensor_broadcaster import (
+from amr_description.controllers.broadcasters.force_torque_sensor_broadcaster import (
     ForceTorqueParameters,
     ForceTorqueSensorBroadcaster,
+)
+from amr_description.controllers.filters import (
+    ChainedFilter,
+    ChainedFilterParameters,
+    FilterChain,
+    FilterParameters,
+    FilterSettings,
 )
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.parameters import build, specs

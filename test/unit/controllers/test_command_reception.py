@@ -8,7 +8,7 @@ import pytest
 from support.control_fakes import FakeLog, MS
 
 from amr_description.control.samples import TwistSample
-from amr_description.controllers.command_reception import CommandReception, FOREIGN_CLOCK
+from amr_description.controllers.drives.command_reception import CommandReception, FOREIGN_CLOCK
 from amr_description.log import Severity
 
 TIMEOUT = 500 * MS

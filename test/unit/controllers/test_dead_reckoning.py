@@ -9,7 +9,7 @@ from support.control_fakes import MS
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.interfaces import StateInterface
-from amr_description.controllers.odometry import DeadReckoning, Odometry, WheelSide
+from amr_description.controllers.drives.odometry import DeadReckoning, Odometry, WheelSide
 from amr_description.errors import ControllerError
 
 LATE = 1_000_000 * NANOSECONDS

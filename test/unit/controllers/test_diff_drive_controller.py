@@ -21,7 +21,7 @@ from amr_description.control.interfaces import (
     Claim,
     NO_INTERFACES,
 )
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveParameters
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.log import Severity
 from amr_description.parameters import build

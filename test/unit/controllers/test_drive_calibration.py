@@ -8,7 +8,7 @@ import random
 from hypothesis import given, strategies as st
 import pytest
 
-from amr_description.controllers.drive_calibration import (
+from amr_description.controllers.checks.drive_calibration import (
     CalibrationRun,
     fit,
     Geometry,
@@ -16,7 +16,7 @@ from amr_description.controllers.drive_calibration import (
     Travel,
     yaw_error,
 )
-from amr_description.controllers.odometry import Odometry
+from amr_description.controllers.drives.odometry import Odometry
 from amr_description.errors import CalibrationError
 
 SEPARATION = 0.3

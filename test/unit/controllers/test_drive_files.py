@@ -5,7 +5,7 @@
 import pytest
 from support.paths import ROOT
 
-from amr_description.controllers.drive_files import DIFF_DRIVE, drive_warnings, read_drives
+from amr_description.controllers.checks.drive_files import DIFF_DRIVE, drive_warnings, read_drives
 from amr_description.errors import ParameterError
 from amr_description.model import urdf
 

@@ -8,7 +8,7 @@ from support.wheel_bench import PERIOD, WheelBench
 
 from amr_description.control.samples import FlagSample, TwistSample
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.wheeled_drive import EMERGENCY_STOP, EmergencyStop
+from amr_description.controllers.drives.wheeled_drive import EMERGENCY_STOP, EmergencyStop
 from amr_description.log import Severity
 
 CORNERS = ('front_left', 'front_right', 'rear_right', 'rear_left')

@@ -10,7 +10,7 @@ from support.control_fakes import collect, FakeLog, MS
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import IMU_INTERFACES, NO_INTERFACES, StateInterface
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.imu_sensor_broadcaster import ImuParameters
+from amr_description.controllers.broadcasters.sensor_broadcasters import ImuParameters
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.parameters import build, specs
 

@@ -10,7 +10,7 @@ from support.paths import ROOT
 
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import ALL_INTERFACES, StateInterface
-from amr_description.controllers.joint_state_broadcaster import (
+from amr_description.controllers.broadcasters.joint_state_broadcaster import (
     BroadcasterParameters,
     JointStateBroadcaster,
 )

@@ -10,7 +10,7 @@ import pytest
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.trajectory_samples import TrajectoryPoint
-from amr_description.controllers.joint_trajectory import (
+from amr_description.controllers.joint_trajectory.splines import (
     decelerating,
     JointOrder,
     Segment,

@@ -11,11 +11,11 @@ from support.examples import examples
 from support.wheel_bench import PERIOD, WheelBench
 
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.mecanum_drive_controller import (
+from amr_description.controllers.drives.mecanum_drive_controller import (
     MecanumDriveController,
+    MecanumDriveParameters,
     MecanumKinematics,
 )
-from amr_description.controllers.mecanum_drive_parameters import MecanumDriveParameters
 from amr_description.errors import ParameterError
 from amr_description.log import Severity
 from amr_description.parameters import build

@@ -8,7 +8,7 @@ import random
 import pytest
 from support.control_fakes import VECTORS
 
-from amr_description.controllers.odometry import Odometry
+from amr_description.controllers.drives.odometry import Odometry
 
 ROWS = VECTORS['odometry']['rows']
 SEED_ROBOT = VECTORS['seed_robot_perfect_tracking']

@@ -11,7 +11,7 @@ from support.examples import examples
 from support.wheel_bench import PERIOD, WheelBench
 
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.omni_wheel_drive_controller import (
+from amr_description.controllers.drives.omni_wheel_drive_controller import (
     OmniKinematics,
     OmniWheelDriveController,
     OmniWheelDriveParameters,

@@ -5,14 +5,14 @@
 import pytest
 from support.paths import ROOT
 
-from amr_description.controllers.drive_files import examine_drive_files
-from amr_description.controllers.parameter_faults import (
+from amr_description.controllers.checks.drive_files import examine_drive_files
+from amr_description.controllers.checks.parameter_faults import (
     closest_type,
     manager_faults,
     type_fault,
     type_here,
 )
-from amr_description.controllers.parameter_sections import read_sections
+from amr_description.controllers.checks.parameter_sections import read_sections
 from amr_description.errors import ParameterError
 from amr_description.model.findings import Severity, SourceLocation
 

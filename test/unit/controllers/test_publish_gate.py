@@ -6,7 +6,7 @@ import pytest
 from support.control_fakes import VECTORS
 
 from amr_description.clock import NANOSECONDS
-from amr_description.controllers.diff_drive_controller import PublishGate
+from amr_description.controllers.drives.diff_drive_controller import PublishGate
 
 SCHEDULES = [
     (name, [int(number) for number in name.removeprefix('update').split('_pub')], indices)

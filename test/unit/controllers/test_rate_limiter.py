@@ -10,7 +10,7 @@ import pytest
 from support.control_fakes import nan_for_none, VECTORS
 from support.examples import examples
 
-from amr_description.controllers.rate_limiter import RateLimiter
+from amr_description.controllers.drives.rate_limiter import RateLimiter
 from amr_description.errors import ParameterError
 
 ROWS = VECTORS['rate_limiter']['rows']

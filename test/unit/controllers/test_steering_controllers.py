@@ -9,7 +9,7 @@ from support.control_fakes import FakeLog, MS
 from support.wheel_bench import PERIOD, WheelBench
 
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.steering_kinematics import (
+from amr_description.controllers.drives.steering_kinematics import (
     AckermannKinematics,
     BicycleKinematics,
     TricycleKinematics,

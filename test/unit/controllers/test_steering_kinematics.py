@@ -8,7 +8,7 @@ from hypothesis import assume, given, strategies as st
 import pytest
 from support.examples import examples
 
-from amr_description.controllers.steering_kinematics import (
+from amr_description.controllers.drives.steering_kinematics import (
     AckermannKinematics,
     BicycleKinematics,
     TricycleKinematics,

@@ -8,7 +8,7 @@ import pytest
 
 from amr_description.clock import NANOSECONDS as S
 from amr_description.control.trajectory_samples import TrajectoryPoint, TrajectorySample
-from amr_description.controllers.trajectory_checks import TrajectoryRules
+from amr_description.controllers.joint_trajectory.checks import TrajectoryRules
 
 JOINTS = ('a', 'b')
 STRICT = TrajectoryRules(JOINTS)

@@ -13,11 +13,11 @@ from amr_description.control.trajectory_samples import (
     TrajectoryPoint,
     TrajectorySample,
 )
-from amr_description.controllers.trajectory_tolerances import (
-    of_goal,
+from amr_description.controllers.joint_trajectory.checks import (
     resolved,
     StateTolerances,
     Tolerances,
+    tolerances_of_goal,
     Violation,
 )
 from amr_description.errors import ControllerError
@@ -76,7 +76,7 @@ def test_other_negative_tolerances_are_illegal(wanted):
 
 
 def test_a_goal_has_tolerances_of_its_own():
-    found, complaint = of_goal(
+    found, complaint = tolerances_of_goal(
         DEFAULTS,
         goal(
             path_tolerance=(JointTolerance('b', 0.5, 1.0, 2.0),),
@@ -121,4 +121,4 @@ def test_a_goal_has_tolerances_of_its_own():
     ],
 )
 def test_a_mistake_in_them_leaves_the_defaults(wrong, text):
-    assert of_goal(DEFAULTS, goal(**wrong), JOINTS) == (DEFAULTS, text)
+    assert tolerances_of_goal(DEFAULTS, goal(**wrong), JOINTS) == (DEFAULTS, text)

@@ -12,8 +12,12 @@ from support.wheel_bench import WheelBench
 
 from amr_description.control.samples import AckermannSample, EmptySample
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.tricycle_controller import TricycleController, TricycleParameters
-from amr_description.controllers.tricycle_limiters import SteeringLimits, TractionLimits
+from amr_description.controllers.drives.tricycle_controller import (
+    SteeringLimits,
+    TractionLimits,
+    TricycleController,
+    TricycleParameters,
+)
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.log import Severity
 from amr_description.parameters import build

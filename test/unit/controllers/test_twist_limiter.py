@@ -8,7 +8,7 @@ from hypothesis import assume, given, strategies as st
 import pytest
 from support.examples import examples
 
-from amr_description.controllers.rate_limiter import RateLimiter, TwistLimiter
+from amr_description.controllers.drives.rate_limiter import RateLimiter, TwistLimiter
 
 law = examples(50)
 speeds = st.floats(-3.0, 3.0).filter(lambda value: value == 0.0 or abs(value) > 1e-3)

@@ -5,7 +5,7 @@
 import sys
 
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.wheeled_drive import reference_input, stamped_twist_input
+from amr_description.controllers.drives.wheeled_drive import reference_input, stamped_twist_input
 from amr_description.model.controller_files import class_of, VELOCITY_TOPICS
 
 

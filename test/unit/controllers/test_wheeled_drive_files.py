@@ -6,7 +6,7 @@ from fixtures.sim.ackermann import ackermann
 from fixtures.sim.mecanum import mecanum, omni
 import pytest
 
-from amr_description.controllers.wheeled_drive_files import (
+from amr_description.controllers.checks.wheeled_drive_files import (
     wheeled_drive_faults,
     wheeled_drive_findings,
 )

@@ -20,8 +20,10 @@ from amr_description.control.controller_manager import ControllerManager
 from amr_description.control.interfaces import LifecycleState
 from amr_description.control.resource_manager import ResourceManager
 from amr_description.control.samples import TwistSample
-from amr_description.controllers.diff_drive_controller import DiffDriveController
-from amr_description.controllers.diff_drive_parameters import DiffDriveParameters
+from amr_description.controllers.drives.diff_drive_controller import (
+    DiffDriveController,
+    DiffDriveParameters,
+)
 from amr_description.errors import HardwareError
 from amr_description.hardware import HARDWARE
 from amr_description.hardware.serial_base_system import SerialBaseSystem

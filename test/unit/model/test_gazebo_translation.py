@@ -6,7 +6,7 @@ from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plu
 import pytest
 
 from amr_description.controllers import CONTROLLERS
-from amr_description.controllers.roller_files import rollers_of_plugins
+from amr_description.controllers.checks.wheeled_drive_files import rollers_of_plugins
 from amr_description.model.gazebo_plugins import kind_of
 from amr_description.model.gazebo_translation import translate
 from amr_description.model.ros2_control_tag import hardware_of

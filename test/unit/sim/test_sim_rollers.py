@@ -8,8 +8,8 @@ from fixtures.sim.driving import AMR, Lines
 from fixtures.sim.mecanum import CORNERS, HALF_BASE, HALF_TRACK, mecanum, OMNI, omni, RADIUS
 import pytest
 
-from amr_description.controllers.mecanum_drive_controller import MecanumKinematics
-from amr_description.controllers.omni_wheel_drive_controller import OmniKinematics
+from amr_description.controllers.drives.mecanum_drive_controller import MecanumKinematics
+from amr_description.controllers.drives.omni_wheel_drive_controller import OmniKinematics
 from amr_description.log import null_log
 from amr_description.model.frames import Transform
 from amr_description.model.rollers import Rollers

@@ -9,8 +9,8 @@ from fixtures.sim.mecanum import CORNERS, HALF_BASE, HALF_TRACK, mecanum, RADIUS
 import pytest
 from support.wheel_bench import WheelBench
 
-from amr_description.controllers.mecanum_drive_controller import MecanumDriveController
-from amr_description.controllers.steering_controllers import AckermannSteeringController
+from amr_description.controllers.drives.mecanum_drive_controller import MecanumDriveController
+from amr_description.controllers.drives.steering_controllers import AckermannSteeringController
 from amr_description.model.frames import Transform
 from amr_description.sim.world import MujocoWorld
 

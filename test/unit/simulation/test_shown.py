@@ -10,7 +10,7 @@ from support.paths import ROOT
 from support.shown_page import play, request, run, ShownPage
 
 from amr_description import Simulation
-from amr_description.controllers.diff_drive_controller import DiffDriveController
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveController
 from amr_description.errors import SimulationError
 from amr_description.model.frames import Transform
 from amr_description.simulation.page_backend import IDLE, SIMULATOR
@@ -237,7 +237,7 @@ def test_who_shows_nothing_imports_nothing_of_it():
     found = run(f"""
 import sys
 from amr_description import Simulation
-from amr_description.controllers.diff_drive_controller import DiffDriveController
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveController
 with Simulation({str(URDF)!r}) as sim:
     sim.drive(0.1, 0.0, seconds=0.1)
 print([name for name in sys.modules if name.startswith(('websockets', 'asyncio.base_events',
@@ -251,7 +251,7 @@ def test_without_websockets_one_line_says_what_to_install():
 import sys
 sys.modules['websockets'] = None
 from amr_description import Simulation
-from amr_description.controllers.diff_drive_controller import DiffDriveController
+from amr_description.controllers.drives.diff_drive_controller import DiffDriveController
 from amr_description.errors import SimulationError
 with Simulation({str(URDF)!r}) as sim:
     try:

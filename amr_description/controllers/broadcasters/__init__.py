@@ -1,0 +1,12 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Controllers that publish states, and command nothing.
+
+====================================== ============================================================
+``joint_state_broadcaster.py``         joint states → ``/joint_states``
+``sensor_broadcasters.py``             IMU, pose, range, GPS, magnetometer; any states, as numbers
+``force_torque_sensor_broadcaster.py`` a wrench → ``~/wrench``
+``battery_state_broadcaster.py``       batteries → ``~/battery_state``
+====================================== ============================================================
+"""
