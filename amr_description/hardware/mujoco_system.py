@@ -35,7 +35,7 @@ from amr_description.errors import HardwareError, SimulationError
 from amr_description.hardware.mock_system import MockPart
 from amr_description.hardware.simulated_sensors import sensors_of
 from amr_description.log import Log, Severity
-from amr_description.model.gazebo import GAZEBO_POSITION_GAIN, ros2_control_host_of
+from amr_description.model.gazebo.tags import GAZEBO_POSITION_GAIN, ros2_control_host_of
 from amr_description.model.hardware_info import (
     HardwareInfo,
     HardwareType,

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The noise of a simulated sensor: :class:`~amr_description.model.gazebo.Noise`, reproducible.
+The noise of a simulated sensor: :class:`~amr_description.model.gazebo.tags.Noise`, reproducible.
 
 Each sensor has its own random stream; another sensor or robot does not change its measurements.
 """
@@ -9,7 +9,7 @@ Each sensor has its own random stream; another sensor or robot does not change i
 from collections.abc import Sequence
 import math
 
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 
 
 class SensorNoise:

@@ -31,7 +31,7 @@ from amr_description.errors import HardwareError
 from amr_description.hardware.sensor_noise import SensorNoise
 from amr_description.hardware.simulated_sensor import Mount, SimulatedSensor
 from amr_description.model.frames import Vector
-from amr_description.model.gazebo_sensors import range_finder_of
+from amr_description.model.gazebo.sensors import range_finder_of
 from amr_description.model.sensors import Lidar
 
 _RINGS = ((0.5, 6), (1.0, 12))

@@ -14,7 +14,7 @@ One whose name begins with ``tcp_`` is else at ``tool0`` or ``flange``, which en
 names of ROS-Industrial. A joint stands for its child link.
 
 It measures without noise, unless the Gazebo sensor declares some
-(:mod:`amr_description.model.gazebo`)::
+(:mod:`amr_description.model.gazebo.tags`)::
 
     <imu><angular_velocity><z><noise type="gaussian"><stddev>0.001</stddev> …
 """
@@ -29,7 +29,7 @@ from amr_description.control.world import World
 from amr_description.errors import HardwareError
 from amr_description.hardware.sensor_noise import SensorNoise
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import GazeboSensor, Noise
+from amr_description.model.gazebo.tags import GazeboSensor, Noise
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import Robot
 

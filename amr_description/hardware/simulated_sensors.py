@@ -31,7 +31,7 @@ from amr_description.hardware.simulated_range import SimulatedRange
 from amr_description.hardware.simulated_sensor import Mount, mount_of, SimulatedSensor
 from amr_description.log import Log, Severity
 from amr_description.model.frames import conjugate, multiply, rotate, Transform
-from amr_description.model.gazebo import gazebo_sensors_of
+from amr_description.model.gazebo.tags import gazebo_sensors_of
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import JointType, Robot
 

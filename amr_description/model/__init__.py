@@ -21,20 +21,9 @@ module                   what it holds
 ``urdf_joints.py``        its ``<joint>`` elements
 ``ros2_control_tag.py``   ``<ros2_control>`` -> HardwareInfo: ``hardware_of(robot)``
 ``fixing.py``             a robot bolted to the ground
-``gazebo.py``             ``<gazebo>`` plugins and sensors
+``gazebo/``               ``<gazebo>`` blocks: plugins, sensors, physics
 ``sensors.py``            lidars, cameras and contact sensors: what a simulator needs to know
-``gazebo_sensors.py``     … from the ``<sensor>`` tags of ``<gazebo>`` blocks
-``gazebo_sensor_tags.py`` … the values of these tags, checked
-``gazebo_classic_sensors.py``  … what Gazebo Classic's plugins in them publish
-``gazebo_plugins.py``     … the plugins that drive a robot without ros2_control, and what they say
-``gazebo_drives.py``      … what drives and odometry become
-``gazebo_joints.py``      … what plugins of single joints become
-``gazebo_instruments.py`` … what sensors become whose values are state interfaces
-``gazebo_builder.py``     … collects it: hardware, controllers, lines to say
-``gazebo_bridge.py``      … files of ros_gz_bridge: what topics are called in ROS
-``gazebo_translation.py`` … of a robot: ``translate(robot)``
 ``base_interfaces.py``    the interfaces of a simulated robot's body as a whole
-``gazebo_physics.py``     <gazebo reference="…">: friction, springs, gravity, self-collision
 ``controller_files.py``   parameter files: those of a robot, and the controllers that they name
 ``findings.py``           Finding: severity, line, what, found, expected, fix
 ``xml_reader.py``         XML of unknown origin, and attributes with true line numbers

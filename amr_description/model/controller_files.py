@@ -15,7 +15,7 @@ from typing import Any
 
 from amr_description.ament_index import own_share, parameter_path
 from amr_description.errors import ResourceError
-from amr_description.model.gazebo import gazebo_plugins_of, ros2_control_host_of
+from amr_description.model.gazebo.tags import gazebo_plugins_of, ros2_control_host_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameter_files import dotted, flatten, read_parameter_file, Section, sections

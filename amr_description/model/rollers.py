@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import math
 
 from amr_description.model.frames import cross, dot, rotate, Vector
-from amr_description.model.gazebo_physics import GazeboLink, GazeboPhysics
+from amr_description.model.gazebo.physics import GazeboLink, GazeboPhysics
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Robot
 

@@ -17,7 +17,7 @@ from typing import TypeAlias
 
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 
 NO_NOISE = Noise()
 RANGE = 'sensor_msgs/msg/Range'

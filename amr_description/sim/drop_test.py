@@ -21,7 +21,7 @@ from amr_description.errors import SimulationError
 from amr_description.log import Severity
 from amr_description.model.axles import axle_fault, vector_text
 from amr_description.model.frames import rotate, Transform, Vector, yaw_of
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import JointType, Robot, WORLD_LINK
 from amr_description.model.ros2_control_tag import hardware_of

@@ -27,7 +27,7 @@ from pathlib import Path
 from lxml import etree
 import mujoco
 
-from amr_description.model.gazebo_physics import GazeboLink
+from amr_description.model.gazebo.physics import GazeboLink
 
 DEFAULT_FRICTION = 0.5
 """Rubber on a smooth dry floor; holds on 26 degrees, climbs kerbs of 20 mm, and no wall."""

@@ -14,7 +14,7 @@ from itertools import combinations
 import mujoco
 
 from amr_description.log import Log, Severity
-from amr_description.model.gazebo_physics import GazeboPhysics
+from amr_description.model.gazebo.physics import GazeboPhysics
 from amr_description.model.robot import Robot, WORLD_LINK
 from amr_description.model.wheels import Wheel
 from amr_description.sim.friction import apply_link_frictions

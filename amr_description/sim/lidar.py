@@ -193,7 +193,7 @@ class SimulatedLidar:
         return distances
 
     def _bias(self) -> float:
-        """Return the bias of the seed; see :class:`~amr_description.model.gazebo.Noise`."""
+        """Return the bias of the seed; see :class:`~amr_description.model.gazebo.tags.Noise`."""
         noise, seed = self.lidar.noise, self._robot.seed
         if not (noise.bias_mean or noise.bias_stddev):
             return 0.0

@@ -15,8 +15,8 @@ import numpy as np
 from amr_description.errors import AmrError
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import Noise
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.tags import Noise
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.origins import relocated
 from amr_description.model.robot import Robot
 from amr_description.model.sensors import Lidar

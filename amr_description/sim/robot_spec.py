@@ -17,7 +17,7 @@ from amr_description.control.interfaces import POSITION, QUANTITIES, VELOCITY
 from amr_description.errors import SpawnError
 from amr_description.log import Log, Severity
 from amr_description.model.base_interfaces import BASE
-from amr_description.model.gazebo_physics import gazebo_physics_of
+from amr_description.model.gazebo.physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import held_without_commands, Joint, JointType, Robot, WORLD_LINK
 from amr_description.model.rollers import described_rollers, FREE_PART, Rollers

@@ -18,7 +18,7 @@ from amr_description.log import Log, null_log, Severity
 from amr_description.model.checks import require_sound
 from amr_description.model.findings import Finding
 from amr_description.model.frames import Quaternion, Transform
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.robot import Robot
 from amr_description.text import one_line, shorten
 

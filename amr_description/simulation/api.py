@@ -35,8 +35,8 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import SimulationError
 from amr_description.model.controller_files import files_of, manager_of
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_bridge import bridge_of
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.bridge import bridge_of
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.robot import Robot as Description
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse as parse_urdf

@@ -19,10 +19,10 @@ from amr_description.control.loop import Commands, Loop, Pacer, Publisher, Stepp
 from amr_description.errors import SpawnError
 from amr_description.log import Log, Severity
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import ros2_control_host_of
-from amr_description.model.gazebo_bridge import bridge_of, bridged
-from amr_description.model.gazebo_builder import GazeboTranslation
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.bridge import bridge_of, bridged
+from amr_description.model.gazebo.builder import GazeboTranslation
+from amr_description.model.gazebo.tags import ros2_control_host_of
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers

@@ -31,7 +31,7 @@ from amr_description.errors import SimulationError
 from amr_description.log import Severity
 from amr_description.model.controller_files import declared_controllers
 from amr_description.model.frames import Transform, Vector
-from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo.builder import GazeboTranslation
 from amr_description.parameters import build
 from amr_description.plugin_errors import describe
 from amr_description.sim.world import MujocoWorld

@@ -12,8 +12,8 @@ from amr_description.controllers.checks.wheeled_drive_files import (
 )
 from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of, missing_files, named_files
-from amr_description.model.gazebo import ros2_control_host_of
-from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo.builder import GazeboTranslation
+from amr_description.model.gazebo.tags import ros2_control_host_of
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
 from amr_description.model.rollers import Rollers

@@ -14,7 +14,7 @@ from amr_description.control.switching import Strictness
 from amr_description.controller_manager.requests import ManagerRequests
 from amr_description.errors import AmrError
 from amr_description.log import Log, Severity
-from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
+from amr_description.model.gazebo.builder import GazeboTranslation, PluginController
 from amr_description.model.sensors import frame_in
 from amr_description.text import quote
 

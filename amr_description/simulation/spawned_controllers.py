@@ -15,7 +15,7 @@ from amr_description.model.controller_files import (
     spawner_words,
     VELOCITY_TOPICS,
 )
-from amr_description.model.gazebo_builder import GazeboTranslation
+from amr_description.model.gazebo.builder import GazeboTranslation
 
 BROADCASTER = 'JointStateBroadcaster'
 _STAMPED_TWIST = 'geometry_msgs/msg/TwistStamped'

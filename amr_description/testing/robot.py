@@ -17,8 +17,8 @@ from amr_description.control.ros.client import ManagerClient, SPAWNER_SERVICES
 from amr_description.errors import SimulationError
 from amr_description.model.controller_files import declared_controllers, manager_of
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_bridge import Bridge, bridged, NO_BRIDGE
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.bridge import Bridge, bridged, NO_BRIDGE
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.robot import Robot as Description
 from amr_description.ros.log_thread import LoggerLog
 from amr_description.ros.messages import fill_pose

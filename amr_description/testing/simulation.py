@@ -26,8 +26,8 @@ from simulation_interfaces.srv import DeleteEntity
 
 from amr_description.errors import AmrError, SimulationError
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_bridge import bridged
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.bridge import bridged
+from amr_description.model.gazebo.translation import translate
 from amr_description.ros.discovery import use_whole_graph
 from amr_description.ros.local_participants import is_on_the_network
 from amr_description.ros.message_types import message_type

@@ -111,9 +111,9 @@ def _plan(
         manager_of,
         remapping,
     )
-    from amr_description.model.gazebo import ros2_control_host_of
-    from amr_description.model.gazebo_bridge import bridged, read_bridge
-    from amr_description.model.gazebo_translation import translate
+    from amr_description.model.gazebo.bridge import bridged, read_bridge
+    from amr_description.model.gazebo.tags import ros2_control_host_of
+    from amr_description.model.gazebo.translation import translate
     from amr_description.model.ros2_control_tag import hardware_of
     from amr_description.parameter_files import given_files
 

@@ -33,9 +33,9 @@ from amr_description.errors import AmrError, ParameterError
 from amr_description.model.checks import examine_drives
 from amr_description.model.checks.context import DriveSettings
 from amr_description.model.findings import Finding, Severity, SourceLocation
-from amr_description.model.gazebo import GazeboPlugin, read_gazebo_plugins
-from amr_description.model.gazebo_builder import PluginController
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.builder import PluginController
+from amr_description.model.gazebo.tags import GazeboPlugin, read_gazebo_plugins
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.origins import relocated
 from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse, read_robot

@@ -25,10 +25,10 @@ from amr_description.log import null_log
 from amr_description.model.axles import vector_text
 from amr_description.model.findings import Finding, Severity, SourceLocation
 from amr_description.model.frames import conjugate, dot, rotate, Transform, Vector
-from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
-from amr_description.model.gazebo_drives import CORNERS, MECANUM
-from amr_description.model.gazebo_physics import gazebo_physics_of
-from amr_description.model.gazebo_plugins import PluginTag
+from amr_description.model.gazebo.builder import GazeboTranslation, PluginController
+from amr_description.model.gazebo.drives import CORNERS, MECANUM
+from amr_description.model.gazebo.physics import gazebo_physics_of
+from amr_description.model.gazebo.plugins import PluginTag
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Joint, JointType, Robot
 from amr_description.model.rollers import described_rollers, Rollers

@@ -11,7 +11,7 @@ What differs from ``diff_drive_controller``, on which it is built:
 - ``max_wheel_acceleration`` limits how the speed of each side changes, as in Gazebo Classic.
 
 The simulator starts it for a robot whose URDF names such a plugin, see
-:mod:`amr_description.model.gazebo_translation`.
+:mod:`amr_description.model.gazebo.translation`.
 """
 
 from collections.abc import Sequence

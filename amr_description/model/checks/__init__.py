@@ -42,7 +42,7 @@ from amr_description.model.checks import (
 )
 from amr_description.model.checks.context import CheckContext, CheckInputs, DriveSettings, Rule
 from amr_description.model.findings import Finding, NO_SHAPE, Report, Severity
-from amr_description.model.gazebo import read_gazebo_plugins
+from amr_description.model.gazebo.tags import read_gazebo_plugins
 from amr_description.model.origins import raise_error_of, relocated
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware

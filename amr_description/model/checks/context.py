@@ -13,8 +13,8 @@ from lxml import etree
 
 from amr_description.model.findings import Finding, SourceLocation
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import GazeboPlugin
-from amr_description.model.gazebo_plugins import PluginTag
+from amr_description.model.gazebo.plugins import PluginTag
+from amr_description.model.gazebo.tags import GazeboPlugin
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.kinematics import link_poses
 from amr_description.model.mended_inertials import bodies_of, mended_inertials, MendedInertial

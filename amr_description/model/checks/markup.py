@@ -16,7 +16,7 @@ from lxml import etree
 from amr_description.errors import AmrError
 from amr_description.model.checks.context import CheckContext, FileExists
 from amr_description.model.findings import Finding
-from amr_description.model.gazebo_sensors import has_sensors
+from amr_description.model.gazebo.sensors import has_sensors
 from amr_description.model.xml_reader import line_of
 from amr_description.text import closest_match, one_line, quote, quote_all
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from amr_description.model.checks.context import CheckContext
 from amr_description.model.findings import Finding
-from amr_description.model.gazebo_sensors import read_sensors
+from amr_description.model.gazebo.sensors import read_sensors
 
 
 def sensors_can_work(context: CheckContext) -> Iterator[Finding]:

@@ -4,7 +4,7 @@
 
 import numpy as np
 
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 from amr_description.model.sensors import Camera
 from amr_description.sim.cameras.lens import pixel_directions
 from amr_description.sim.cameras.renderer import RenderedPicture

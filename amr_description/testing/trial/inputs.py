@@ -25,7 +25,7 @@ import yaml
 
 from amr_description.ament_index import packages, parameter_path
 from amr_description.errors import AmrError, UsageError
-from amr_description.model.gazebo_plugins import plugins_of
+from amr_description.model.gazebo.plugins import plugins_of
 from amr_description.model.xml_reader import parse_xml
 from amr_description.parameter_files import KEY, read_parameter_file, sections
 

@@ -22,7 +22,7 @@ import time
 import warnings
 
 from amr_description.errors import AmrError
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.robot import Robot
 from amr_description.model.urdf import parse
 from amr_description.simulation.given import GivenDescription

@@ -10,8 +10,8 @@ after that.
 from collections.abc import Iterable, Sequence
 
 from amr_description.errors import PartlyDoneError, ViewerError
-from amr_description.model.gazebo import ros2_control_host_of
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.tags import ros2_control_host_of
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.viewer.protocol import ControllerInfo

@@ -19,7 +19,7 @@ from support.running_programs import PATIENCE
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import wait_until

@@ -11,7 +11,7 @@ from support.control_fakes import FakeLog
 from support.ros_processes import PATIENCE
 
 from amr_description.log import Severity
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
 from amr_description.sim.ros.executor_tasks import abandon, run_in
 from amr_description.simulation.plugin_controllers import log_translation, node_arguments

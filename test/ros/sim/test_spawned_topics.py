@@ -12,7 +12,7 @@ from simulation_interfaces.msg import SpawnEntity
 from support.running_programs import PATIENCE
 
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
 from amr_description.ros.messages import transform_of
 from amr_description.ros.qos import LATCHED

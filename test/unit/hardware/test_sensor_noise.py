@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from amr_description.hardware.sensor_noise import SensorNoise
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 
 COUNT = 20_000
 

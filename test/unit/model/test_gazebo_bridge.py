@@ -6,8 +6,8 @@ from fixtures.sim.plugin_robot import cart, gz_drive
 import pytest
 
 from amr_description.errors import ParameterError
-from amr_description.model.gazebo_bridge import bridged, read_bridge
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.bridge import bridged, read_bridge
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
 
 SENSORS = """

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from amr_description.model.gazebo_sensors import robot_sensors_of
+from amr_description.model.gazebo.sensors import robot_sensors_of
 from amr_description.model.urdf import parse
 
 RAY = """<ray><scan><horizontal><samples>9</samples><min_angle>-1</min_angle>

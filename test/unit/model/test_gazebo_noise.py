@@ -6,9 +6,9 @@ import pytest
 
 from amr_description.errors import DescriptionError
 from amr_description.model.checks import require_sound
-from amr_description.model.gazebo import gazebo_sensors_of, Noise
-from amr_description.model.gazebo_sensors import robot_sensors_of
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.sensors import robot_sensors_of
+from amr_description.model.gazebo.tags import gazebo_sensors_of, Noise
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
 
 

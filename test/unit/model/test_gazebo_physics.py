@@ -4,7 +4,7 @@
 
 import pytest
 
-from amr_description.model.gazebo_physics import gazebo_physics_of, GazeboJoint, GazeboLink
+from amr_description.model.gazebo.physics import gazebo_physics_of, GazeboJoint, GazeboLink
 from amr_description.model.urdf import parse
 
 ROBOT = """<robot name="r"><link name="a"/><link name="b"/>

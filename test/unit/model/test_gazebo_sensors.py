@@ -7,9 +7,9 @@ import math
 import pytest
 
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo import gazebo_sensors_of, GazeboSensor
-from amr_description.model.gazebo_sensors import robot_sensors_of
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.sensors import robot_sensors_of
+from amr_description.model.gazebo.tags import gazebo_sensors_of, GazeboSensor
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
 
 

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from amr_description.model.gazebo_sensors import range_finder_of, robot_sensors_of
+from amr_description.model.gazebo.sensors import range_finder_of, robot_sensors_of
 from amr_description.model.urdf import parse
 
 

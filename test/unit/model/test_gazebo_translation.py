@@ -7,8 +7,8 @@ import pytest
 
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.checks.wheeled_drive_files import rollers_of_plugins
-from amr_description.model.gazebo_plugins import kind_of
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.plugins import kind_of
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.parameters import build

@@ -8,7 +8,7 @@ import pytest
 
 from amr_description.model import checks
 from amr_description.model.findings import Severity
-from amr_description.model.gazebo_sensors import robot_sensors_of
+from amr_description.model.gazebo.sensors import robot_sensors_of
 from amr_description.model.sensors import Intrinsics, ScanAxis
 from amr_description.model.urdf import parse
 

@@ -6,8 +6,8 @@ from fixtures.sim.public_sensors import HUSKY_BRIDGE, ROBOTS
 import pytest
 
 from amr_description.model import checks
-from amr_description.model.gazebo_bridge import bridged, read_bridge
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.bridge import bridged, read_bridge
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.sensors import Camera
 from amr_description.model.urdf import parse
 

@@ -7,7 +7,7 @@ import math
 from fixtures.sim.mecanum import mecanum
 import pytest
 
-from amr_description.model.gazebo_physics import gazebo_physics_of
+from amr_description.model.gazebo.physics import gazebo_physics_of
 from amr_description.model.rollers import described_rollers, roller_angle, Rollers
 from amr_description.sim.spawning import read_description
 

@@ -8,7 +8,7 @@ from support.paths import ROOT
 from amr_description.errors import DescriptionError
 from amr_description.model import urdf
 from amr_description.model.checks import check
-from amr_description.model.gazebo import gazebo_plugins_of, GazeboPlugin
+from amr_description.model.gazebo.tags import gazebo_plugins_of, GazeboPlugin
 from amr_description.model.hardware_info import HardwareType, TransmissionEnd
 from amr_description.model.robot import Mimic
 from amr_description.model.ros2_control_tag import hardware_of

@@ -9,7 +9,7 @@ from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plu
 import pytest
 
 from amr_description.cli import check_urdf
-from amr_description.model.gazebo_translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
 
 DRIVES = ('drive:', 'diff_drive:', 'mecanum_drive:', 'ackermann_steering:')

@@ -13,7 +13,7 @@ from support.examples import examples
 
 from amr_description.errors import SimulationError
 from amr_description.model.frames import conjugate, rotate, Transform
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 from amr_description.model.sensors import Lidar, ScanAxis, SensorMount
 from amr_description.sim.lidar import scan_angles, SimulatedLidar
 from amr_description.sim.state_copy import CopiedScenes, StateCopier

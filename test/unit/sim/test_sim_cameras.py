@@ -12,7 +12,7 @@ from support.camera_scenes import camera_of, seen_from, state_of, take
 from support.examples import examples
 
 from amr_description.model.frames import quaternion_from_rpy, Transform
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 from amr_description.model.sensors import Distortion, Intrinsics
 from amr_description.sim.cameras.lens import (
     distort,

@@ -17,7 +17,7 @@ from amr_description.maps.pose import Pose
 from amr_description.maps.rasterization import fill_convex
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import quaternion_from_yaw, Transform
-from amr_description.model.gazebo_sensors import robot_sensors_of
+from amr_description.model.gazebo.sensors import robot_sensors_of
 from amr_description.model.kinematics import link_poses
 from amr_description.model.sensors import Lidar
 from amr_description.model.urdf import parse

@@ -46,7 +46,7 @@ WORLD_SENSORS = (
     'contact',
     'sonar',
 )
-"""Types of sensors that look at the world: :mod:`amr_description.model.gazebo_sensors`."""
+"""Types of sensors that look at the world: :mod:`amr_description.model.gazebo.sensors`."""
 
 GAUSSIAN_TYPES = ('gaussian', 'gaussian_quantized')
 TYPES = ('none', *GAUSSIAN_TYPES)
@@ -209,7 +209,7 @@ def gazebo_sensors_of(robot: Robot) -> tuple[GazeboSensor, ...]:
     Return the sensors of all ``<gazebo>`` blocks that can be read, and all that see the world.
 
     What is wrong with the others is told by the checker, see :func:`sensor_faults`; those that
-    look at the world are read by :mod:`amr_description.model.gazebo_sensors`.
+    look at the world are read by :mod:`amr_description.model.gazebo.sensors`.
     """
     xml = parse_xml(robot.text, robot.source, raise_error_of(robot.text))
     if xml is None:

@@ -18,8 +18,8 @@ JointPositionController, JointController     ``amr_description/GazeboJointComman
 JointTrajectoryController                    ``joint_trajectory_controller/…``
 ros_control of ROS 1, with <transmission>    none: its joints can be commanded by ros2_control
 ``<sensor>``: imu, magnetometer, …           a broadcaster
-                                             (:mod:`amr_description.model.gazebo_instruments`)
-other sensors                                none: :mod:`amr_description.model.gazebo_sensors`
+                                             (:mod:`amr_description.model.gazebo.instruments`)
+other sensors                                none: :mod:`amr_description.model.gazebo.sensors`
 ============================================ ====================================================
 
 Parameters that are not given have Gazebo's defaults. Topics are those of the plugin: Classic's
@@ -37,13 +37,13 @@ from pathlib import Path
 
 from amr_description.errors import AmrError
 from amr_description.model.controller_files import claimed_names
-from amr_description.model.gazebo_builder import Builder, GazeboTranslation
-from amr_description.model.gazebo_drives import DRIVES, FIRST
-from amr_description.model.gazebo_instruments import add_instrument
-from amr_description.model.gazebo_joints import JOINTS
-from amr_description.model.gazebo_physics import SCRUBBING
-from amr_description.model.gazebo_plugins import plugins_of, sensors_of
-from amr_description.model.gazebo_sensors import read_sensors, SERVED_ELSEWHERE
+from amr_description.model.gazebo.builder import Builder, GazeboTranslation
+from amr_description.model.gazebo.drives import DRIVES, FIRST
+from amr_description.model.gazebo.instruments import add_instrument
+from amr_description.model.gazebo.joints import JOINTS
+from amr_description.model.gazebo.physics import SCRUBBING
+from amr_description.model.gazebo.plugins import plugins_of, sensors_of
+from amr_description.model.gazebo.sensors import read_sensors, SERVED_ELSEWHERE
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware

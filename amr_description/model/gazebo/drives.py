@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 import math
 from typing import Any
 
-from amr_description.model.gazebo_builder import Builder, gz_topic, node_name, origin_of
-from amr_description.model.gazebo_plugins import PluginElement, PluginTag
+from amr_description.model.gazebo.builder import Builder, gz_topic, node_name, origin_of
+from amr_description.model.gazebo.plugins import PluginElement, PluginTag
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Robot
 from amr_description.model.wheels import find_wheels

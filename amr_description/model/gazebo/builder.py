@@ -11,7 +11,7 @@ from typing import Any
 from lxml import etree
 
 from amr_description.model.base_interfaces import BASE, COMMAND_AXES, TRUTH, truth_prefix
-from amr_description.model.gazebo_plugins import PluginElement, PluginTag
+from amr_description.model.gazebo.plugins import PluginElement, PluginTag
 from amr_description.model.hardware_info import (
     ComponentInfo,
     ComponentType,

@@ -8,15 +8,15 @@ from collections.abc import Callable, Mapping
 import math
 from typing import Any
 
-from amr_description.model.gazebo_builder import (
+from amr_description.model.gazebo.builder import (
     Builder,
     gz_topic,
     LEAST_RATE,
     node_name,
     origin_of,
 )
-from amr_description.model.gazebo_instruments import add_wrench
-from amr_description.model.gazebo_plugins import PluginElement
+from amr_description.model.gazebo.instruments import add_wrench
+from amr_description.model.gazebo.plugins import PluginElement
 from amr_description.text import quote, quote_all
 
 _NONE = ''

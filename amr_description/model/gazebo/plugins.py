@@ -10,7 +10,7 @@ A robot made for Gazebo names a plugin by its library, its class, or both::
                      filename="libignition-gazebo-diff-drive-system.so" …
 
 :func:`kind_of` gives all of them one name, such as ``diff-drive``; what it becomes is said in
-:mod:`amr_description.model.gazebo_translation`.
+:mod:`amr_description.model.gazebo.translation`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ import re
 
 from lxml import etree
 
-from amr_description.model.gazebo import GazeboPlugin
+from amr_description.model.gazebo.tags import GazeboPlugin
 from amr_description.model.xml_reader import line_of, parse_number
 from amr_description.text import quote, truth
 

@@ -4,7 +4,7 @@
 Lidars, cameras and contact sensors from the ``<sensor>`` tags of ``<gazebo>`` blocks.
 
 New Gazebo's sensors publish on ``<topic>`` by themselves, those of Classic by the plugin in their
-tag (:mod:`amr_description.model.gazebo_classic_sensors`). Here each has the topics that it has in
+tag (:mod:`amr_description.model.gazebo.classic_sensors`). Here each has the topics that it has in
 ROS: new Gazebo's as they are usually bridged, ``<topic>`` without a leading ``/model/NAME`` or
 slash, in the namespace of the robot.
 
@@ -33,17 +33,17 @@ import math
 
 from lxml import etree
 
-from amr_description.model.gazebo import sensor_faults, WORLD_SENSORS
-from amr_description.model.gazebo_builder import gz_sensor_topic
-from amr_description.model.gazebo_classic_sensors import read_classic
-from amr_description.model.gazebo_plugins import PluginElement, sensors_of
-from amr_description.model.gazebo_sensor_tags import (
+from amr_description.model.gazebo.builder import gz_sensor_topic
+from amr_description.model.gazebo.classic_sensors import read_classic
+from amr_description.model.gazebo.plugins import PluginElement, sensors_of
+from amr_description.model.gazebo.sensor_tags import (
     camera_of,
     LEFT_OUT,
     lidar_of,
     SensorTag,
     topic_part,
 )
+from amr_description.model.gazebo.tags import sensor_faults, WORLD_SENSORS
 from amr_description.model.kinematics import link_poses
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot

@@ -25,8 +25,8 @@ import yaml
 
 from amr_description.ament_index import path_of
 from amr_description.errors import ParameterError, ResourceError, SimulationError
-from amr_description.model.gazebo_builder import GazeboTranslation, PluginController
-from amr_description.model.gazebo_sensor_tags import topic_part
+from amr_description.model.gazebo.builder import GazeboTranslation, PluginController
+from amr_description.model.gazebo.sensor_tags import topic_part
 from amr_description.model.sensors import WorldSensor
 from amr_description.parameter_files import load_yaml, YamlError
 from amr_description.text import closest_match, quote

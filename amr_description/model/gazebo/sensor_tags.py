@@ -17,7 +17,7 @@ from lxml import etree
 from amr_description.model.collision_names import find_collisions
 from amr_description.model.findings import Finding
 from amr_description.model.frames import dot, rotate, Transform
-from amr_description.model.gazebo import Noise
+from amr_description.model.gazebo.tags import Noise
 from amr_description.model.robot import JointType, Robot
 from amr_description.model.sensors import (
     Camera,
