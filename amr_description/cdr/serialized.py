@@ -4,7 +4,7 @@
 Messages of any type as their bytes, and back.
 
 A message is any object with its fields as attributes. What aligns numbers is zero, so that equal
-messages have equal bytes, those that :func:`amr_description.ros.cdr_padding.serialize` makes of
+messages have equal bytes, those that :func:`amr_description.ros.layouts.serialize` makes of
 messages of rclpy.
 """
 

@@ -102,8 +102,7 @@ def main(args: Namespace) -> int:
     )
     source = None
     if is_launch_file(stack):
-        from amr_description.launch_api.launch_file import LaunchFile
-        from amr_description.launch_api.original import launch_by_the_original
+        from amr_description.launch_api.launch_file import launch_by_the_original, LaunchFile
 
         if not (args.print or args.launch_prefix):  # which only the bring-up knows here
             os.environ |= environment.variables(args, os.environ)

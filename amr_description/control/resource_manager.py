@@ -362,7 +362,7 @@ class ResourceManager:
                 lost += self._handle_failure(loaded, 'reset', error)
         return lost
 
-    def read(self, time: int, period: int) -> Sequence[str]:
+    def read(self, time: int, period: int) -> list[str]:
         """
         Read every available component that is due.
 
@@ -373,27 +373,27 @@ class ResourceManager:
         Returns:
             The names of those that failed and were brought down, along with their groups.
         """
-        lost: Sequence[str] = ()
+        lost: list[str] = []
         for loaded in self._ordered:
             try:
                 loaded.read(time, period)
             except Exception as error:  # a third-party component may raise anything
-                lost = [*lost, *self._handle_failure(loaded, 'read', error)]
+                lost += self._handle_failure(loaded, 'read', error)
         return lost
 
-    def write(self, time: int, period: int) -> Sequence[str]:
+    def write(self, time: int, period: int) -> list[str]:
         """
         Write every active component that is due; arguments as of :meth:`read`.
 
         Returns the names of those that are no longer active: brought down along with their groups,
         or inactive if they asked for that.
         """
-        lost: Sequence[str] = ()
+        lost: list[str] = []
         for loaded in self._ordered:
             try:
                 loaded.write(time, period)
             except Exception as error:
-                lost = [*lost, *self._handle_failure(loaded, 'write', error)]
+                lost += self._handle_failure(loaded, 'write', error)
         return lost
 
     def _handle_failure(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:

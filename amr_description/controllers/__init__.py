@@ -121,7 +121,7 @@ CONTROLLERS = Registry(
             'amr_description.controllers.broadcasters.sensor_broadcasters:RangeSensorBroadcaster'
         ),
         'state_interfaces_broadcaster/StateInterfacesBroadcaster': (
-            'amr_description.controllers.broadcasters.sensor_broadcasters:StateInterfacesBroadcaster'
+            'amr_description.controllers.broadcasters.state_interfaces_broadcaster:StateInterfacesBroadcaster'
         ),
         'tricycle_controller/TricycleController': (
             'amr_description.controllers.drives.tricycle_controller:TricycleController'

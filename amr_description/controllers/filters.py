@@ -19,7 +19,7 @@ from statistics import fmean, median_high
 
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import CommandInterface, StateInterface
-from amr_description.controllers.broadcasters.sensor_broadcasters import SensorBroadcaster
+from amr_description.controllers.broadcasters.sensor_broadcaster import SensorBroadcaster
 from amr_description.errors import ControllerError
 from amr_description.parameters import group, keyed_group, numbered_group, parameter
 

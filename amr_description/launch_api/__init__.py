@@ -33,6 +33,5 @@ read, its actions are visited in order, and each is translated into what a stack
 ``modules.py``            the table of modules and names, and how files import them
 ``markup.py``             launch files in XML and YAML
 ``launch_file.py``        a launch file for ``ros2 launch``: its arguments, its stack
-``original.py``           … for the real launch, where that is installed
 ========================= ========================================================================
 """

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A launch file for ``ros2 launch``: what it takes, and the stack that it is translated into."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+import importlib
+import importlib.util
 from pathlib import Path
 
 from amr_description.bringup import user_errors
+from amr_description.bringup.arguments import parse
 from amr_description.bringup.description import Stack
 from amr_description.bringup.handlers import Level
 from amr_description.bringup.input_files import notes_on
@@ -23,10 +26,44 @@ from amr_description.launch_api.including import (
     LaunchDescriptionSource,
     read,
 )
-from amr_description.launch_api.modules import understood
+from amr_description.launch_api.modules import is_installed, understood
 from amr_description.launch_api.opened_files import note, recording
 from amr_description.launch_api.translation import translated
 from amr_description.text import suggestion
+
+
+def launch_by_the_original(path: Path, words: Sequence[str], *, show: bool = False) -> int | None:
+    """
+    Run a launch file by the original launch.
+
+    Args:
+        path: the file.
+        words: its arguments, ``name:=value``.
+        show: whether to print its arguments only, if ``ros2launch`` is installed.
+
+    Returns:
+        Its exit code; None: it is not installed.
+
+    Raises:
+        UsageError: an argument is malformed.
+    """
+    if not is_installed():
+        return None
+    pairs = list(parse(words).items())
+    if show and importlib.util.find_spec('ros2launch') is not None:
+        api = importlib.import_module('ros2launch.api')
+        api.print_arguments_of_launch_file(launch_file_path=str(path))
+        return 0
+    launch = importlib.import_module('launch')
+    sources = importlib.import_module('launch.launch_description_sources')
+    actions = importlib.import_module('launch.actions')
+    include = actions.IncludeLaunchDescription(
+        sources.AnyLaunchDescriptionSource(str(path)), launch_arguments=pairs
+    )
+    service = launch.LaunchService(argv=list(words))
+    service.include_launch_description(launch.LaunchDescription([include]))
+    return int(service.run())
+
 
 including.LOADERS.update(markup.LOADERS)
 

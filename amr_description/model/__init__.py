@@ -30,11 +30,9 @@ module                   what it holds
 
 ``wheels.py``             which links are wheels
 ``collision_names.py``    what Gazebo calls the collisions of links
-``rollers.py``            which of them have rollers: mecanum and omni wheels
 ``axles.py``              where their axles point, and what would mend it
 ``shapes.py``             primitive shapes as solids: inertia, extent, overlap
 ``meshes.py``             mesh files as triangles: ``load_mesh(path, scale)``
-``collada.py``            what meshes.py needs to know of COLLADA files
 ``mesh_solids.py``        meshes as solids: closed or not, mass, inertia, hull
 ``planar_hull.py``         convex hulls in the plane, and bodies seen from above
 ``footprint.py``          the polygon of a robot on the ground, for costmaps

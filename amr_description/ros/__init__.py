@@ -12,7 +12,6 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``transport.py``          have Fast DDS send by UDP, so that no killed process holds us up
 ``udp_sockets.py``        which UDP ports of this host are in use
 ``rclpy_internals.py``    the private members of rclpy that are used, and nothing else uses
-``rcl_structures.py``     structures of rcl, for those who call it by ctypes
 
 ``arguments.py``          the robot description that a command line names, beside its ROS arguments
 ``node_help.py``          ``--help`` of an executable that has no other options
@@ -38,10 +37,8 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``cdr.py``                serialized messages, read without making messages of them
 ``cdr_sensors.py``        … those of sensors, whose arrays are not copied
 ``cdr_navigation.py``     … maps and paths
-``cdr_types.py``          … of any type: how they are laid out
 ``cdr_fields.py``         … some numbers of them, by their paths
 ``cdr_tree.py``           … or all of one, shortened, as JSON has it
-``cdr_template.py``       … and made without making messages: by a template (``cdr/``)
-``cdr_padding.py``        … so that equal messages have equal bytes
+``layouts.py``            … their layouts, and templates that make them (``cdr/``)
 ========================= =========================================================================
 """

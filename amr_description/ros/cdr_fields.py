@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 from amr_description.cdr.cursor import BEGIN, Cursor, ORDERS
 from amr_description.cdr.layouts import FieldGroup, Layout, Many, Number, Text
 from amr_description.errors import AmrError
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of
 from amr_description.text import did_you_mean, shorten
 
 NOT_THERE = float('nan')

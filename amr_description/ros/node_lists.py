@@ -21,7 +21,7 @@ from functools import cache
 from rclpy.node import Node
 
 from amr_description.ros.cdr import Reader
-from amr_description.ros.rcl_structures import Allocator, SerializedMessage
+from amr_description.ros.publisher_gids import Allocator, SerializedMessage
 
 TOPIC = 'ros_discovery_info'
 """The topic's name in DDS."""

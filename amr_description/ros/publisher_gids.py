@@ -13,7 +13,27 @@ from typing import NamedTuple
 
 from rclpy.subscription import Subscription
 
-from amr_description.ros.rcl_structures import Allocator, SerializedMessage
+
+class Allocator(ctypes.Structure):
+    """``rcutils_allocator_t``."""
+
+    _fields_ = (('functions', ctypes.c_void_p * 4), ('state', ctypes.c_void_p))
+
+
+class SerializedMessage(ctypes.Structure):
+    """``rcl_serialized_message_t`` and ``rmw_serialized_message_t``: bytes to be filled."""
+
+    _fields_ = (
+        ('buffer', ctypes.c_void_p),
+        ('length', ctypes.c_size_t),
+        ('capacity', ctypes.c_size_t),
+        ('allocator', Allocator),
+    )
+
+    def copied(self) -> bytes:
+        """Return a copy."""
+        return ctypes.string_at(self.buffer, self.length)
+
 
 _GID = 16
 _LIBRARY = 'librcl.so'  # symbols are looked for in what it was linked to, too

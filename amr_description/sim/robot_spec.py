@@ -20,9 +20,8 @@ from amr_description.model.base_interfaces import BASE
 from amr_description.model.gazebo.physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo
 from amr_description.model.robot import held_without_commands, Joint, JointType, Robot, WORLD_LINK
-from amr_description.model.rollers import described_rollers, FREE_PART, Rollers
 from amr_description.model.ros2_control_tag import hardware_of
-from amr_description.model.wheels import Wheel
+from amr_description.model.wheels import described_rollers, FREE_PART, Rollers, Wheel
 from amr_description.sim.actuators import add_actuators, command_bounds, COMMANDS
 from amr_description.sim.base_servo import add_base_servo
 from amr_description.sim.engine import compiler_message, compiler_warnings

@@ -49,7 +49,7 @@ class RollerContacts:
         Args:
             geom: the name of its geom.
             joint: the name of its joint, whose axis is the axle.
-            angle: of its rollers, as of :class:`~amr_description.model.rollers.Rollers`, rad.
+            angle: of its rollers, as of :class:`~amr_description.model.wheels.Rollers`, rad.
         """
         self._wheels[geom] = joint, angle
 

@@ -16,7 +16,7 @@ import math
 
 import mujoco
 
-from amr_description.model.rollers import Rollers
+from amr_description.model.wheels import Rollers
 
 _LEAST = 1e-5
 """The least friction that MuJoCo takes."""

@@ -24,7 +24,7 @@ from amr_description.errors import SimulationError, SpawnError
 from amr_description.log import Log, null_log, Severity
 from amr_description.model.frames import Transform, wxyz_from_xyzw
 from amr_description.model.robot import Robot
-from amr_description.model.rollers import Rollers
+from amr_description.model.wheels import Rollers
 from amr_description.sim.engine import compiler_message, compiler_warnings, Engine, LONGEST_STEP
 from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
 from amr_description.sim.gazebo_physics import wheel_geom_name

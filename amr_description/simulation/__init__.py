@@ -12,7 +12,6 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``plain_controllers.py``   … its controllers, and their ports
 ``films.py``               … films and plots of it
 ``alterations.py``         … what a test changes in it: physics, sensors, motors, commands
-``log_lines.py``           … what all of them log
 ``command.py``             … the command ``amr``: a robot on a page
 ``playing.py``             … time that passes by the wall clock
 ``shown.py``               … its page, and what pages do

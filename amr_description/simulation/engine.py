@@ -25,8 +25,8 @@ from amr_description.model.gazebo.tags import ros2_control_host_of
 from amr_description.model.gazebo.translation import translate
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
-from amr_description.model.rollers import Rollers
 from amr_description.model.ros2_control_tag import hardware_of
+from amr_description.model.wheels import Rollers
 from amr_description.parameter_files import file_names
 from amr_description.plugin_errors import describe
 from amr_description.sim.engine import physics_stepping, steps_in

@@ -38,8 +38,7 @@ from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.alterations import Alterations
 from amr_description.simulation.api import SimulationApi
 from amr_description.simulation.engine import SimulationEngine, Spawned
-from amr_description.simulation.local_manager import LocalHost, LocalManager
-from amr_description.simulation.log_lines import LogLines
+from amr_description.simulation.local_manager import LocalHost, LocalManager, LogLines
 from amr_description.simulation.parameters import SimulationParameters
 from amr_description.simulation.playing import play, Playing
 from amr_description.simulation.plugin_controllers import start_controllers

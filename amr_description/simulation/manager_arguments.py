@@ -16,7 +16,7 @@ from amr_description.model.gazebo.builder import GazeboTranslation
 from amr_description.model.gazebo.tags import ros2_control_host_of
 from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
-from amr_description.model.rollers import Rollers
+from amr_description.model.wheels import Rollers
 from amr_description.parameter_files import file_names, read_parameter_file
 from amr_description.text import quote_all
 

@@ -18,8 +18,7 @@ from amr_description.model.sensors import (
 from amr_description.sim.cameras.choice import ChosenRenderer
 from amr_description.sim.cameras.pictures import encoded
 from amr_description.sim.cameras.renderer import RenderedPicture, Shot
-from amr_description.sim.cameras.simulated_camera import SimulatedCamera
-from amr_description.sim.cameras.viewpoints import FIELD_OF_VIEW, viewpoint
+from amr_description.sim.cameras.simulated_camera import FIELD_OF_VIEW, SimulatedCamera, viewpoint
 from amr_description.sim.contact_sensor import SimulatedContacts
 from amr_description.sim.lidar import (
     cloud_rays,

@@ -12,8 +12,12 @@ from amr_description.control.trajectory_samples import (
     TrajectoryPoint,
     TrajectorySample,
 )
-from amr_description.controllers.joint_trajectory.controller import JointTrajectoryController
-from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
+from amr_description.controllers.joint_trajectory.controller import (
+    JointTrajectoryController,
+)
+from amr_description.controllers.joint_trajectory.parameters import (
+    JointTrajectoryParameters,
+)
 from amr_description.parameters import build
 
 PERIOD = S // 100

@@ -58,8 +58,7 @@ class HzVerb:
         from rclpy.clock import Clock, ClockType
 
         from amr_description.cli.message_filter import make_filter
-        from amr_description.cli.meters import RateMeter
-        from amr_description.cli.topic.measuring import measured_topic
+        from amr_description.cli.meters import measured_topic, RateMeter
 
         meter = RateMeter(args.window_size)
         wanted = make_filter(args.filter_expr)
@@ -105,8 +104,7 @@ class BwVerb:
     @staticmethod
     def main(args: Namespace) -> int:
         """Print a report a second until Ctrl-C."""
-        from amr_description.cli.meters import BandwidthMeter
-        from amr_description.cli.topic.measuring import measured_topic
+        from amr_description.cli.meters import BandwidthMeter, measured_topic
 
         meter = BandwidthMeter(args.window)
         with measured_topic(args.topic, use_sim_time=args.use_sim_time) as topic:
@@ -151,8 +149,7 @@ class DelayVerb:
     @staticmethod
     def main(args: Namespace) -> int:
         """Print a report a second until Ctrl-C."""
-        from amr_description.cli.meters import DelayMeter
-        from amr_description.cli.topic.measuring import measured_topic
+        from amr_description.cli.meters import DelayMeter, measured_topic
 
         meter = DelayMeter(args.window)
         with measured_topic(args.topic, use_sim_time=args.use_sim_time) as topic:

@@ -13,7 +13,6 @@ of each controller that subscribes to something takes its messages.
 ``pacing.py``                  when the next cycle is due: by wall, system or received clock
 ``message_recorder.py``        hands what is published, and the commands, to who records it
 ``loop_publisher.py``          publishes ``/clock`` and what controllers send, after each cycle
-``node_topics.py``             makes topics of a node on which bytes go out after each cycle
 ``realtime.py``                time slice, priority, cores and memory of the control thread
 
 ``controller_manager_node.py`` the node, and how a manager is brought up

@@ -9,8 +9,7 @@ from amr_description.cdr.layouts import FieldGroup
 from amr_description.cdr.template import Template
 from amr_description.messages import encoders
 from amr_description.messages.encoders import Encoder
-from amr_description.ros.cdr_template import is_that_of
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import is_that_of, layout_of
 
 
 class RosForm:

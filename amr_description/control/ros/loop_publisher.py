@@ -35,7 +35,7 @@ import time as wall
 from typing import Any, Final
 
 from diagnostic_msgs.msg import KeyValue
-from rclpy.exceptions import InvalidHandle
+from rclpy.exceptions import InvalidHandle, InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
@@ -52,16 +52,18 @@ from amr_description.control.ros.message_recorder import (
     RecordedMessagePublisher,
     Sink,
 )
+from amr_description.errors import SimulationError
 from amr_description.messages.encoders import Encoder
 from amr_description.plugin_errors import describe
-from amr_description.ros.cdr_padding import serialize
 from amr_description.ros.firewall import guard
-from amr_description.ros.message_types import type_name
+from amr_description.ros.layouts import serialize
+from amr_description.ros.message_types import message_type, type_name
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.rclpy_internals import (
     bytes_publisher,
     manual_clock,
     publisher_without_lock,
+    RCLError,
     RcutilsLogger,
     share_clock,
 )
@@ -448,3 +450,45 @@ class CommandAcknowledgements:
         """Some publisher's message ``number`` on ``topic`` was accepted."""
         if self._publisher.get_subscription_count():
             self._publisher.publish(KeyValue(key=topic, value=str(number)))
+
+
+QOS = QoSProfile(depth=10)
+"""Reliable: who subscribes best effort, as SensorDataQoS does, is served as well."""
+
+
+class NodeTopics:
+    """
+    Topics of a node on which bytes go out at the end of a cycle; the ROS thread makes them.
+
+    They are the :class:`~amr_description.simulation.topics.advertising.Topics` of ROS.
+    """
+
+    def __init__(self, node: Node, publisher: LoopPublisher) -> None:
+        """
+        Make no topic yet.
+
+        Args:
+            node: Has the publishers.
+            publisher: Publishes at the end of a cycle.
+        """
+        self._node, self._publisher = node, publisher
+        self.reporters, self.followers = publisher.reporters, publisher.followers
+
+    def advertise(self, name: str, message: str, encode: Callable[[Any], bytes]) -> LoopTopic:
+        """Make a topic. Raises AmrError: its name or type is no good."""
+        kind = message_type(message)
+        try:
+            publisher = self._node.create_publisher(kind, name, QOS)
+        except (RCLError, InvalidTopicNameException) as error:
+            raise SimulationError(_reason(error)) from error
+        return self._publisher.topic(publisher, encode)
+
+    def withdraw(self, topic: LoopTopic) -> None:
+        """Remove a topic."""
+        self._node.destroy_publisher(topic.publisher)
+
+
+def _reason(error: Exception) -> str:
+    """Say why there is no such topic, without the line of C that rcl names, and what would do."""
+    what = ' '.join(map(str.strip, str(error).splitlines()[:2])).partition(', at ')[0]
+    return f'{what}; give it another <topic>, or its robot a namespace'

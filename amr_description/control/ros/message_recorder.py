@@ -15,7 +15,7 @@ from rclpy.subscription import Subscription
 
 from amr_description.control.contracts import Input
 from amr_description.control.recorded_commands import each_new
-from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.layouts import serialize
 from amr_description.ros.message_types import type_name
 
 Sink: TypeAlias = Callable[[bytes], None]

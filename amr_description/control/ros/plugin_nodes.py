@@ -38,7 +38,7 @@ from amr_description.messages.writers import writer_of
 from amr_description.model.robot import Robot
 from amr_description.plugin_errors import describe
 from amr_description.ros.callback_thread import CallbackThread
-from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.layouts import serialize
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import add_parameter_event_qos_overrides
 from amr_description.ros.runtime import argument_errors, destroy_node, run_in_thread

@@ -18,7 +18,7 @@ from typing import Any
 
 from amr_description.control.contracts import ControllerContext, Output, Port
 from amr_description.control.sensor_samples import BatteriesSample, BatterySample
-from amr_description.controllers.broadcasters.sensor_broadcasters import below, SensorBroadcaster
+from amr_description.controllers.broadcasters.sensor_broadcaster import below, SensorBroadcaster
 from amr_description.errors import ControllerError
 from amr_description.log import Severity
 from amr_description.parameters import keyed_group, parameter

@@ -20,7 +20,7 @@ import math
 from amr_description.control.contracts import ControllerContext, Output, Port
 from amr_description.control.interfaces import CommandInterface, StateInterface
 from amr_description.control.sensor_samples import WrenchSample
-from amr_description.controllers.broadcasters.sensor_broadcasters import (
+from amr_description.controllers.broadcasters.sensor_broadcaster import (
     axes,
     below,
     SensorBroadcaster,

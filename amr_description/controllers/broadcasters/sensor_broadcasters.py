@@ -9,91 +9,33 @@ The broadcasters that publish the states of one sensor at every update, and comm
 ``RangeSensorBroadcaster``     ``~/range``        a distance
 ``GPSSensorBroadcaster``       ``~/gps/fix``      a satellite fix
 ``MagnetometerBroadcaster``    ``~/magnetic_field`` a magnetic field
-``StateInterfacesBroadcaster`` ``~/values``       any state interfaces, as numbers
 ============================== ================== ==============================================
 
 The sensor is one of the ``<ros2_control>`` block. Covariances are parameters.
 """
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 import math
-from typing import Any
 
-from amr_description.control.contracts import Controller, ControllerContext, Output, Port, Qos
+from amr_description.control.contracts import Output, Port
 from amr_description.control.interfaces import (
-    CommandInterface,
     IMU_INTERFACES,
-    InterfaceRequest,
-    StateInterface,
 )
 from amr_description.control.samples import ImuConstants, ImuSample
 from amr_description.control.sensor_samples import (
     MagneticFieldSample,
-    NamesSample,
     NavSatFixSample,
     PoseSample,
     RangeConstants,
     RangeSample,
-    ValuesSample,
 )
-from amr_description.errors import ControllerError
+from amr_description.controllers.broadcasters.sensor_broadcaster import (
+    axes,
+    below,
+    SensorBroadcaster,
+)
 from amr_description.log import Severity
 from amr_description.parameters import group, parameter
-
-
-class SensorBroadcaster(Controller):
-    """
-    Publishes some state interfaces at every update.
-
-    A broadcaster calls :meth:`_read_from` at the end of ``configure``, and :meth:`_values` in
-    ``update``.
-    """
-
-    def __init__(self, context: ControllerContext) -> None:
-        super().__init__(context)
-        self._request = InterfaceRequest.individual(())
-        self._outputs: tuple[Output[Any], ...] = ()
-        self._states: tuple[StateInterface, ...] = ()
-
-    def _read_from(self, interfaces: Iterable[str], *outputs: Output[Any]) -> None:
-        """Have these state interfaces, by their full names, published on these topics."""
-        self._request = InterfaceRequest.individual(interfaces)
-        self._outputs = outputs
-
-    def _values(self) -> tuple[float, ...]:
-        """Return the present states, in the order of the interfaces."""
-        return tuple([float(state.value) for state in self._states])
-
-    def state_interfaces(self) -> InterfaceRequest:
-        """Return those that are published."""
-        return self._request
-
-    def outputs(self) -> tuple[Output[Any], ...]:
-        """Return the topics."""
-        return self._outputs
-
-    def activate(
-        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
-    ) -> None:
-        """Take the interfaces. Raises ControllerError: some are missing."""
-        self._request.require_all(states, 'state')
-        self._states = tuple(states)
-
-    def deactivate(self, time: int) -> None:
-        """Drop the interfaces."""
-        self._states = ()
-
-
-def below(name: str, *interfaces: str) -> tuple[str, ...]:
-    """Return the full names of interfaces of one sensor."""
-    return tuple(f'{name}/{interface}' for interface in interfaces)
-
-
-def axes(quantity: str, names: str = 'xyz') -> tuple[str, ...]:
-    """Return the interfaces of a vector: ``force.x``, ``force.y``, ``force.z``."""
-    return tuple(f'{quantity}.{axis}' for axis in names)
-
 
 _ZEROS = (0.0,) * 9
 
@@ -367,55 +309,3 @@ class MagnetometerBroadcaster(SensorBroadcaster):
                 self._parameters.static_covariance,
             )
         )
-
-
-_LATCHED = Qos(depth=1, reliability='reliable', durability='transient_local')
-
-
-@dataclass(frozen=True)
-class StateInterfacesParameters:
-    """The table of state_interfaces_broadcaster/StateInterfacesBroadcaster."""
-
-    interfaces: tuple[str, ...] = parameter(
-        (), 'State interfaces to publish, in this order', not_empty=True, read_only=True
-    )
-
-
-class StateInterfacesBroadcaster(SensorBroadcaster):
-    """
-    Publishes any state interfaces as plain numbers.
-
-    ``~/names`` (latched) has their names, ``~/values`` their values at every update, in that
-    order. The original publishes the names when it is configured, this one when it is activated.
-    """
-
-    parameters_type = StateInterfacesParameters
-
-    def configure(self, parameters: StateInterfacesParameters) -> None:
-        """Take over the names."""
-        self._interfaces = parameters.interfaces
-        self._names: Output[NamesSample] = Output(
-            Port('~/names', 'control_msgs/msg/Keys', qos=_LATCHED, sample=NamesSample)
-        )
-        self._published: Output[ValuesSample] = Output(
-            Port('~/values', 'control_msgs/msg/Float64Values', sample=ValuesSample)
-        )
-        self._read_from(parameters.interfaces, self._names, self._published)
-
-    def activate(
-        self, commands: Sequence[CommandInterface], states: Sequence[StateInterface], time: int
-    ) -> None:
-        """Publish the names. Raises ControllerError: a state is missing, or no double."""
-        for state in states:
-            if state.data_type != 'double':
-                raise ControllerError(
-                    f"State interface '{state.name}' ({state.data_type}) is not of type double. "
-                    'The StateInterfacesBroadcaster only supports state interfaces that support '
-                    'double datatype.'
-                )
-        super().activate(commands, states, time)
-        self._names.send(NamesSample(time, self._interfaces))
-
-    def update(self, time: int, period: int) -> None:
-        """Publish the values."""
-        self._published.send(ValuesSample(time, self._values()))

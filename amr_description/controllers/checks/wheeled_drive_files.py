@@ -31,9 +31,8 @@ from amr_description.model.gazebo.physics import gazebo_physics_of
 from amr_description.model.gazebo.plugins import PluginTag
 from amr_description.model.kinematics import link_poses
 from amr_description.model.robot import Joint, JointType, Robot
-from amr_description.model.rollers import described_rollers, Rollers
 from amr_description.model.urdf import read_robot
-from amr_description.model.wheels import find_wheels
+from amr_description.model.wheels import described_rollers, find_wheels, Rollers
 from amr_description.model.xml_reader import parse_xml
 from amr_description.parameters import build
 from amr_description.text import quote
@@ -401,12 +400,12 @@ def _sign(value: int) -> str:
     return '> 0' if value > 0 else '< 0'
 
 
-_CONTROLLERS = 'amr_description.controllers'
+_DRIVES = 'amr_description.controllers.drives'
 _CHECKS: Mapping[str, Callable[[_Drive, Any], Iterator[Finding]]] = {
-    f'{_CONTROLLERS}.diff_drive_parameters:DiffDriveParameters': _check_rollers,
-    f'{_CONTROLLERS}.mecanum_drive_parameters:MecanumDriveParameters': _check_mecanum,
-    f'{_CONTROLLERS}.omni_wheel_drive_controller:OmniWheelDriveParameters': _check_omni,
-    f'{_CONTROLLERS}.steering_parameters:SteeringParameters': _check_steering,
+    f'{_DRIVES}.diff_drive_controller:DiffDriveParameters': _check_rollers,
+    f'{_DRIVES}.mecanum_drive_controller:MecanumDriveParameters': _check_mecanum,
+    f'{_DRIVES}.omni_wheel_drive_controller:OmniWheelDriveParameters': _check_omni,
+    f'{_DRIVES}.steering_controllers:SteeringParameters': _check_steering,
 }
 """By the table of parameters, or one that it extends."""
 

@@ -20,7 +20,9 @@ from amr_description.control.trajectory_samples import (
     TrajectoryPoint,
     TrajectorySample,
 )
-from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
+from amr_description.controllers.joint_trajectory.parameters import (
+    JointTrajectoryParameters,
+)
 from amr_description.errors import ControllerError
 
 _FLOAT32_EPSILON = 2.0**-23

@@ -60,19 +60,17 @@ from amr_description.control.trajectory_samples import (
     TrajectorySample,
     TrajectoryStateSample,
 )
-from amr_description.controllers.joint_trajectory.checks import (
-    tolerances_of_goal,
-    tolerances_of_parameters,
-    TrajectoryRules,
-    Violation,
-)
+from amr_description.controllers.joint_trajectory import checks
+from amr_description.controllers.joint_trajectory.checks import TrajectoryRules, Violation
 from amr_description.controllers.joint_trajectory.interfaces import (
     FollowGoal,
     JointHandles,
     JointLayout,
     TrajectoryPorts,
 )
-from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
+from amr_description.controllers.joint_trajectory.parameters import (
+    JointTrajectoryParameters,
+)
 from amr_description.controllers.joint_trajectory.splines import (
     decelerating,
     JointOrder,
@@ -150,7 +148,7 @@ class JointTrajectoryController(Controller):
             allow_nonzero_end_velocity=parameters.allow_nonzero_velocity_at_trajectory_end,
             has_effort=EFFORT in layout.commands,
         )
-        self._defaults = self._tolerances = tolerances_of_parameters(parameters)
+        self._defaults = self._tolerances = checks.tolerances_of_parameters(parameters)
         self._decelerations, complaint = layout.decelerations(parameters)
         if complaint:
             self.log(Severity.WARN, complaint)
@@ -308,7 +306,7 @@ class JointTrajectoryController(Controller):
             for goal in filter(None, (self._goal, *goals[:-1])):
                 goal.cancel(_PREEMPTED)
             self._goal = goal = goals[-1]
-            self._tolerances, complaint = tolerances_of_goal(
+            self._tolerances, complaint = checks.tolerances_of_goal(
                 self._defaults, goal.request, self._layout.joints
             )
             if complaint:

@@ -38,7 +38,9 @@ from amr_description.control.trajectory_samples import (
     TrajectorySample,
     TrajectoryStateSample,
 )
-from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
+from amr_description.controllers.joint_trajectory.parameters import (
+    JointTrajectoryParameters,
+)
 from amr_description.errors import ControllerError
 from amr_description.model.robot import JointType, Robot
 

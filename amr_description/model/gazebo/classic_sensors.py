@@ -32,7 +32,12 @@ from typing import TypeAlias
 
 from amr_description.model.gazebo.builder import node_name
 from amr_description.model.gazebo.plugins import PluginElement
-from amr_description.model.gazebo.sensor_tags import camera_of, lidar_of, SensorTag, topic_part
+from amr_description.model.gazebo.sensor_tags import (
+    camera_of,
+    lidar_of,
+    SensorTag,
+    topic_part,
+)
 from amr_description.model.gazebo.tags import Noise
 from amr_description.model.robot import WORLD_LINK
 from amr_description.model.sensors import Camera, ContactSensor, Lidar, SensorMount, WorldSensor

@@ -17,7 +17,12 @@ from typing import Any
 
 from lxml import etree
 
-from amr_description.model.gazebo.builder import Builder, gz_sensor_topic, HIGHEST_RATE, node_name
+from amr_description.model.gazebo.builder import (
+    Builder,
+    gz_sensor_topic,
+    HIGHEST_RATE,
+    node_name,
+)
 from amr_description.model.gazebo.plugins import PluginElement
 from amr_description.model.gazebo.tags import gazebo_sensors_of, Noise
 from amr_description.model.hardware_info import (

@@ -10,7 +10,7 @@ from tf2_msgs.msg import TFMessage
 from amr_description.cdr.template import Template
 from amr_description.clock import NANOSECONDS
 from amr_description.nodes.robot_state_publisher.robot_state import LinkTransform
-from amr_description.ros.cdr_template import is_that_of, template_of
+from amr_description.ros.layouts import is_that_of, template_of
 from amr_description.ros.messages import fill_stamp
 
 _CHANGING = ('transforms.header.stamp', 'transforms.transform')

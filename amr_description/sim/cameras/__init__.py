@@ -5,17 +5,13 @@ Pictures of the simulated world, in colour and depth, as cameras see it.
 
 =========================== =======================================================================
 ``simulated_camera.py``     a camera on a robot: pictures with noise, points
-``viewpoints.py``           where a picture is taken from that no robot's camera takes
 ``renderer.py``             what a renderer is asked for, and what it gives
 ``ray_renderer.py``         one that casts a ray for each pixel, on the processor
 ``gl_renderer.py``          one that draws by OpenGL
-``gl_context.py``           … its context: EGL, OSMesa
 ``choice.py``               which of the two
 ``ray_caster.py``           where the rays of a camera end
 ``screen.py``               … these rays, as a grid
-``surfaces.py``             … the surfaces of simple shapes, as arrays of depths
 ``shading.py``              the colours of what rays hit: light
-``textures.py``             … and textures
 ``pictures.py``             what messages are made of them: noise, JPEGs, clouds of points
 ``lens.py``                 where a point is in the picture, and where a pixel looks: K, distortion
 =========================== =======================================================================

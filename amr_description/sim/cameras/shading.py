@@ -11,11 +11,206 @@ summed over all lights. The headlight is such a light, at the camera and along i
 """
 
 from dataclasses import dataclass
+import math
 
 import mujoco
 import numpy as np
 
-from amr_description.sim.cameras.textures import Textures
+# --- Textures ------------------------------------------------------------------------------------
+#
+# A texture is laid on a shape as MuJoCo's own renderer does: a flat one along the shape's z axis,
+# a cube from its middle. Each has smaller versions of itself, of which each pixel takes the one
+# whose texels are as wide as what the pixel covers: a far floor is grey, and does not flicker. The
+# texture of a mesh, which has coordinates for its corners, is only its mean colour.
+
+_RGB = int(mujoco.mjtTextureRole.mjTEXROLE_RGB)
+_SKYBOX = int(mujoco.mjtTexture.mjTEXTURE_SKYBOX)
+_FLAT = int(mujoco.mjtTexture.mjTEXTURE_2D)
+_MESHES = (int(mujoco.mjtGeom.mjGEOM_MESH), int(mujoco.mjtGeom.mjGEOM_SDF))
+_FACES = 6
+_RED_GREEN_BLUE = 3
+
+
+class _Image:
+    """One square or oblong picture, and its smaller versions."""
+
+    def __init__(self, pixels: np.ndarray) -> None:
+        """``pixels``: (height, width, 3), uint8."""
+        levels = [pixels.astype(np.float32) / 255.0]
+        while min(levels[-1].shape[:2]) > 1:
+            larger = levels[-1]
+            height, width = larger.shape[0] // 2 * 2, larger.shape[1] // 2 * 2
+            even = larger[:height, :width].reshape(height // 2, 2, width // 2, 2, 3)
+            levels.append(even.mean(axis=(1, 3)))
+        self.size = np.array(pixels.shape[1::-1])
+        self._widths = np.array([level.shape[1] for level in levels])
+        self._heights = np.array([level.shape[0] for level in levels])
+        counts = self._widths * self._heights
+        self._starts = np.concatenate(([0], np.cumsum(counts)[:-1]))
+        self._texels = np.concatenate([level.reshape(-1, 3) for level in levels])
+        self.mean = levels[-1].reshape(-1, 3).mean(axis=0)
+
+    def colors(self, s: np.ndarray, t: np.ndarray, texels: np.ndarray) -> np.ndarray:
+        """
+        Return colours, (n, 3).
+
+        Args:
+            s: (n,), to the right; a whole number begins the picture anew.
+            t: (n,), down.
+            texels: (n,), how many of them a pixel covers.
+        """
+        level = np.log2(np.maximum(texels, 1.0))
+        level = np.minimum(np.rint(level).astype(np.intp), len(self._widths) - 1)
+        width, height = self._widths[level], self._heights[level]
+        column = ((s - np.floor(s)) * width).astype(np.intp)
+        row = ((t - np.floor(t)) * height).astype(np.intp)
+        np.minimum(column, width - 1, out=column)
+        np.minimum(row, height - 1, out=row)
+        return np.asarray(self._texels[self._starts[level] + row * width + column])
+
+
+@dataclass(frozen=True, slots=True)
+class _Flat:
+    image: _Image
+    scale: tuple[float, float]
+    """1/m: of x and y of the geom's axes."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Cube:
+    faces: tuple[_Image, ...]
+    scale: np.ndarray
+    """1/m, or 1: of the geom's axes."""
+
+
+class Textures:
+    """The textures of one model."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        """Read those that geoms have; ``model``: stays as it is."""
+        self._images: dict[int, tuple[_Image, ...]] = {}
+        self._geoms: dict[int, _Flat | _Cube | np.ndarray] = {}
+        for geom in range(model.ngeom):
+            material = int(model.geom_matid[geom])
+            texture = int(model.mat_texid[material, _RGB]) if material >= 0 else -1
+            if texture >= 0:
+                self._geoms[geom] = self._laid_on(model, geom, material, texture)
+        self._is_textured = np.zeros(model.ngeom, bool)
+        self._is_textured[list(self._geoms)] = True
+        self._sky = next(
+            (
+                self._image(model, texture)
+                for texture in range(model.ntex)
+                if model.tex_type[texture] == _SKYBOX
+            ),
+            None,
+        )
+
+    def apply(
+        self,
+        data: mujoco.MjData,
+        geoms: np.ndarray,
+        points: np.ndarray,
+        footprints: np.ndarray,
+        colors: np.ndarray,
+    ) -> None:
+        """
+        Multiply colours by those of the textures.
+
+        Args:
+            data: Has the poses of geoms.
+            geoms: (n,), which geom each hit is on.
+            points: (n, 3), where, in the world, m.
+            footprints: (n,), how wide a pixel is there, m.
+            colors: (n, 3); are changed.
+        """
+        if not self._geoms:
+            return
+        which = np.flatnonzero(self._is_textured[geoms])
+        for geom in np.unique(geoms[which]).tolist():
+            hits = which[geoms[which] == geom]
+            texture = self._geoms[geom]
+            if isinstance(texture, np.ndarray):
+                colors[hits] *= texture
+                continue
+            turn = data.geom_xmat[geom].reshape(3, 3).astype(np.float32)
+            local = (points[hits] - data.geom_xpos[geom].astype(np.float32)) @ turn
+            colors[hits] *= _lookup(texture, local, footprints[hits])
+
+    def sky(self, directions: np.ndarray) -> np.ndarray | None:
+        """Return the colours of the sky, (n, 3), by directions in the world; None: without."""
+        if self._sky is None:
+            return None
+        # OpenGL's y is up.
+        x, y, z = directions.T
+        turned = np.stack((x, z, -y), axis=-1)
+        return _on_cube(self._sky, turned, np.ones(len(turned), np.float32))
+
+    def _laid_on(
+        self, model: mujoco.MjModel, geom: int, material: int, texture: int
+    ) -> _Flat | _Cube | np.ndarray:
+        images = self._image(model, texture)
+        mesh = int(model.geom_dataid[geom])
+        if int(model.geom_type[geom]) in _MESHES and model.mesh_texcoordadr[mesh] >= 0:
+            return np.asarray(images[0].mean, np.float32)
+        size = np.where(model.geom_size[geom] > 0.0, model.geom_size[geom], 1.0)
+        is_uniform = bool(model.mat_texuniform[material])
+        if model.tex_type[texture] == _FLAT:
+            repeat = model.mat_texrepeat[material]
+            x, y = (repeat if is_uniform else repeat / size[:2]).tolist()
+            return _Flat(images[0], (x, y))
+        return _Cube(images, np.asarray(1.0 if is_uniform else 1.0 / size, np.float32))
+
+    def _image(self, model: mujoco.MjModel, texture: int) -> tuple[_Image, ...]:
+        """Return the one picture of a texture, or the six of a cube."""
+        if texture not in self._images:
+            height, width = int(model.tex_height[texture]), int(model.tex_width[texture])
+            channels, start = int(model.tex_nchannel[texture]), int(model.tex_adr[texture])
+            pixels = model.tex_data[start : start + height * width * channels]
+            pixels = pixels.reshape(height, width, channels)
+            if channels < _RED_GREEN_BLUE:
+                pixels = pixels[..., :1].repeat(_RED_GREEN_BLUE, axis=2)
+            pixels = pixels[..., :_RED_GREEN_BLUE]
+            is_cube = model.tex_type[texture] != _FLAT and height == _FACES * width
+            faces = np.split(pixels, _FACES) if is_cube else [pixels]
+            self._images[texture] = tuple(map(_Image, faces))
+        return self._images[texture]
+
+
+def _lookup(texture: _Flat | _Cube, local: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+    """Return colours at points in the geom's axes."""
+    if isinstance(texture, _Cube):
+        return _on_cube(texture.faces, local * texture.scale, footprint)
+    x, y = texture.scale
+    s, t = 0.5 * x * local[:, 0] - 0.5, -0.5 * y * local[:, 1] - 0.5
+    width, height = texture.image.size.tolist()
+    density = 0.5 * math.sqrt(abs(x * y) * width * height)
+    return texture.image.colors(s, t, footprint * np.float32(density))
+
+
+def _on_cube(faces: tuple[_Image, ...], points: np.ndarray, footprint: np.ndarray) -> np.ndarray:
+    """Return colours by direction, as OpenGL looks them up in a cube; see its specification."""
+    size = np.abs(points)
+    axis = size.argmax(axis=1)
+    rows = np.arange(len(points))
+    major = points[rows, axis]
+    face = 2 * axis + (major < 0.0)
+    x, y, z = points.T
+    # Of the faces +x, -x, +y, -y, +z, -z.
+    across = np.choose(face, (-z, z, x, x, x, -x))
+    down = np.choose(face, (-y, -y, z, -z, -y, -y))
+    largest = np.maximum(size[rows, axis], 1e-12)
+    s, t = 0.5 * (across / largest + 1.0), 0.5 * (down / largest + 1.0)
+    np.clip(s, 0.0, 1.0 - 1e-6, out=s)
+    np.clip(t, 0.0, 1.0 - 1e-6, out=t)
+    colors = np.empty((len(points), 3), np.float32)
+    for number in np.unique(face).tolist():
+        image = faces[min(number, len(faces) - 1)]
+        here = np.flatnonzero(face == number)
+        texels = footprint[here] / largest[here] * (0.5 * float(image.size[0]))
+        colors[here] = image.colors(s[here], t[here], texels)
+    return colors
+
 
 _DIRECTIONAL = int(mujoco.mjtLightType.mjLIGHT_DIRECTIONAL)
 _SPOT = int(mujoco.mjtLightType.mjLIGHT_SPOT)

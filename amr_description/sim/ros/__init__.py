@@ -6,7 +6,6 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 =========================== =======================================================================
 ``simulation.py``           the simulation in a process: world, robots, control thread, ``/clock``
 ``entities.py``             robots are spawned and removed, each with its controller manager
-``executor_tasks.py``       coroutines of one executor that another one awaits
 ``other_clock.py``          ends, or warns, where another simulator publishes ``/clock``
 ``run_recording.py``        begins and ends recordings, as the parameter ``record`` says
 ``run_recorder.py``         records what this process publishes, and the commands, to a bag
@@ -18,7 +17,6 @@ The simulator over ROS: the services of ``simulation_interfaces``, robots, and t
 ``source_folders.py``       folders that a request names
 ``entity_services.py``      states, info and bounds of entities; filters
 ``wrench_topics.py``        ``~/wrench``: pushes from outside
-``posix_regex.py``          the regular expressions of these filters
 
 ``measure_service.py``      ``~/measure``: the present instant, while time stands still
 ``spawned_topics.py``       ``~/spawned/NAME``: with what each entity was spawned

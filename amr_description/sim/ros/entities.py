@@ -7,9 +7,10 @@ A robot whose URDF has a ``<ros2_control>`` block gets a controller manager of i
 namespace.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from dataclasses import dataclass
 import enum
+from typing import Any
 
 from rclpy.executors import Executor
 from rclpy.task import Future
@@ -29,12 +30,49 @@ from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.ros.runtime import argument_errors, ExecutorThread, run_in_thread
 from amr_description.sim.robot_spec import WORLD_LINK
-from amr_description.sim.ros.executor_tasks import abandon, run_in
 from amr_description.sim.spawning import SpawnCode
 from amr_description.simulation.engine import Arrival, SimulationEngine, Spawned
 from amr_description.simulation.plugin_controllers import start_controllers
 from amr_description.simulation.topics.ground_truth import GroundTruth
 from amr_description.simulation.topics.sensor_manager import SensorManager
+
+
+def run_in(executor: Executor, work: Coroutine[Any, Any, None], waiting: Executor) -> Future:
+    """
+    Run a coroutine in one executor; return what a coroutine of another one can await.
+
+    Args:
+        executor: Of the node that the coroutine is about; its thread runs.
+        work: The coroutine.
+        waiting: The executor of the one that awaits.
+    """
+    done = Future(executor=waiting)
+
+    async def run() -> None:
+        try:
+            await work
+        except Exception as error:  # raised again where the future is awaited
+            done.set_exception(error)
+        finally:  # it may be closed, as its robot is removed
+            if not done.done():
+                done.set_result(None)
+            waiting.wake()  # a task that awaits is looked at only when the executor wakes
+
+    executor.create_task(run())
+    return done
+
+
+def abandon(done: Future, waiting: Executor) -> None:
+    """
+    End the wait for what :func:`run_in` was to run, where its executor runs no more.
+
+    Args:
+        done: What :func:`run_in` has returned; it may be done.
+        waiting: The executor of the one that awaits it.
+    """
+    if not done.done():
+        done.set_result(None)
+        waiting.wake()
 
 
 class Category(enum.IntEnum):

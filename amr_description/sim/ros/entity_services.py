@@ -12,7 +12,10 @@ Of ``simulation_interfaces/msg/EntityFilters``, ``filter`` may match any part of
 """
 
 from collections.abc import Collection, Iterable
+import ctypes
+from functools import cache
 import math
+from typing import Self
 
 from geometry_msgs.msg import Vector3
 from rclpy.node import Node
@@ -46,12 +49,60 @@ from amr_description.ros.messages import (
 )
 from amr_description.sim.entity_state import BoundingBox, bounds_of, motion_of, pose_of, set_state
 from amr_description.sim.ros.entities import Category, Entity, EntityRecord
-from amr_description.sim.ros.posix_regex import PosixRegex
 from amr_description.sim.ros.service_replies import create_services
 from amr_description.sim.ros.simulation import Simulation
 from amr_description.sim.spawning import checked_pose
 from amr_description.sim.wrenches import MOST
 from amr_description.simulation.topics.names import WORLD_FRAME
+
+# --- POSIX extended regular expressions ----------------------------------------------------------
+#
+# Python's ``re`` has another syntax, in which ``[[:digit:]]`` is a set of brackets and letters.
+# Therefore the C library is used.
+
+_REG_EXTENDED, _REG_NOSUB = 1, 8
+_BUFFER_SIZE = 1024
+"""Bytes; a ``regex_t`` has 64 in glibc, 48 in musl; error messages are short."""
+
+
+@cache
+def _libc() -> ctypes.CDLL:
+    return ctypes.CDLL(None)
+
+
+class PosixRegex:
+    """A compiled expression; it may match any part of a text, as with ``grep -E``."""
+
+    def __init__(self, expression: str) -> None:
+        """Compile an expression. Raises UsageError."""
+        self._compiled = None
+        compiled = ctypes.create_string_buffer(_BUFFER_SIZE)
+        flags = _REG_EXTENDED | _REG_NOSUB
+        if '\0' in expression:
+            raise UsageError(f'{expression!r} is no regular expression: it holds a NUL character')
+        error = _libc().regcomp(compiled, expression.encode(), flags)
+        if error:
+            reason = ctypes.create_string_buffer(_BUFFER_SIZE)
+            _libc().regerror(error, compiled, reason, ctypes.c_size_t(_BUFFER_SIZE))
+            raise UsageError(
+                f"'{expression}' is no POSIX extended regular expression: {reason.value.decode()}"
+            )
+        self._compiled = compiled
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Free the memory of the compiled expression."""
+        compiled, self._compiled = self._compiled, None
+        if compiled is not None:
+            _libc().regfree(compiled)
+
+    def is_in(self, text: str) -> bool:
+        """Return whether the expression matches any part of a text."""
+        none = ctypes.c_size_t(0)
+        return _libc().regexec(self._compiled, text.encode(), none, None, 0) == 0
+
 
 FEATURES = (
     SimulatorFeatures.ENTITY_TAGS,

@@ -24,9 +24,8 @@ from rclpy.parameter import Parameter
 
 from amr_description.bag.run_description import RunDescription
 from amr_description.control.loop import Pacer, Publisher, Stepper
-from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, NodeTopics
 from amr_description.control.ros.loop_thread import CallQueue, LoopContext, LoopThread
-from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.control.ros.pacing import WallPacer
 from amr_description.control.ros.realtime import set_time_slice, USUAL_SLICE
 from amr_description.parameters import specs

@@ -16,8 +16,6 @@ The topics of a simulation, with ROS or without: what is published at the end of
 ``contact.py``              contact sensors and bumpers
 ``worker.py``               the thread that measures what takes long
 ``camera.py``               cameras: pictures, depth, points
-``image_messages.py``       … their messages
 ``lidar.py``                lidars and range finders: scans, points, ranges
-``lidar_messages.py``       … their messages
 =========================== =======================================================================
 """

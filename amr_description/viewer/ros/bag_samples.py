@@ -16,7 +16,7 @@ import numpy as np
 from amr_description.bag.reader import BagReader
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, ViewerError
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of
 from amr_description.ros.message_types import message_type
 from amr_description.viewer.backend import Watched
 from amr_description.viewer.bags import SeriesData

@@ -13,7 +13,7 @@ from amr_description.cdr.layouts import FieldGroup, Many, Number
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError
 from amr_description.ros.cdr_fields import FieldReader, NOT_THERE, why_no_number
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of
 from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.viewer.protocol import Origin, Values
 from amr_description.viewer.ros.message_feed import unreadable

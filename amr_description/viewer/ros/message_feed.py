@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 from amr_description.cdr.layouts import FieldGroup
 from amr_description.ros.cdr_tree import read_tree
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of
 from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.text import shorten
 from amr_description.viewer.protocol import AnyMessage, Channel, Origin, Unreadable

@@ -16,7 +16,7 @@ from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from amr_description.cdr.layouts import FieldGroup, Layout, Many, Text
 from amr_description.errors import ViewerError
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of
 from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import fill_stamp

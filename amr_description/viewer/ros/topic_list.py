@@ -14,8 +14,8 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from amr_description.cdr.layouts import Layout, Many, Number
 from amr_description.errors import AmrError
-from amr_description.ros.cdr_types import layout_of
 from amr_description.ros.endpoints import endpoint_node
+from amr_description.ros.layouts import layout_of
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.rclpy_internals import RCLError
 from amr_description.viewer.graph import SENSORS

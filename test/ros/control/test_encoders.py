@@ -34,8 +34,7 @@ from amr_description.messages import encoders
 from amr_description.messages.encoders import bytes_encoder_of, ENCODINGS, TemplateEncoder
 from amr_description.messages.writers import writer_of
 from amr_description.model.frames import Transform
-from amr_description.ros.cdr_padding import serialize
-from amr_description.ros.cdr_template import is_that_of, template_of
+from amr_description.ros.layouts import is_that_of, serialize, template_of
 from amr_description.ros.message_types import message_type
 from amr_description.ros.service_calls import wait_until
 

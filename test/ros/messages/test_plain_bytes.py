@@ -11,8 +11,8 @@ from amr_description.cdr.layouts import FieldGroup, Many, Number, Text
 from amr_description.cdr.serialized import fill, serialized
 from amr_description.messages.definitions import layout_of, texts
 from amr_description.messages.plain import message_of, PlainMessage
-from amr_description.ros import cdr_types
-from amr_description.ros.cdr_padding import serialize
+from amr_description.ros import layouts
+from amr_description.ros.layouts import serialize
 from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
 
@@ -42,7 +42,7 @@ def drawn(layout, chance):
 
 @pytest.mark.parametrize('name', NAMES)
 def test_both_are_laid_out_alike(name):
-    assert layout_of(name) == cdr_types.layout_of(message_type(name))
+    assert layout_of(name) == layouts.layout_of(message_type(name))
 
 
 @pytest.mark.parametrize('name', NAMES)

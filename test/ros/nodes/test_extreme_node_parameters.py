@@ -13,10 +13,9 @@ from support.manager_host import ros_in_this_process
 
 from amr_description.clock import NANOSECONDS
 from amr_description.control.manager_parameters import CommonParameters, ManagerTable
-from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, NodeTopics
 from amr_description.control.ros.loop_thread import CallQueue, LoopThread
 from amr_description.control.ros.node_parameters import NodeParameters
-from amr_description.control.ros.node_topics import NodeTopics
 from amr_description.control.ros.pacing import WallPacer
 from amr_description.control.ros.status_topics import DiagnosticsTopic
 from amr_description.controller_manager.parameters import ManagerParameters

@@ -27,7 +27,7 @@ from amr_description.cdr.layouts import CODES
 from amr_description.errors import AmrError
 from amr_description.ros.cdr_fields import FieldReader
 from amr_description.ros.cdr_tree import MOST_NUMBERS, read_tree
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of
 from amr_description.ros.message_types import type_name
 
 _INTEGERS = {'b': 8, 'B': 8, 'h': 16, 'H': 16, 'i': 32, 'I': 32, 'q': 64, 'Q': 64}

@@ -11,8 +11,7 @@ from sensor_msgs.msg import JointState, PointField
 from std_msgs.msg import Empty, Float64MultiArray, MultiArrayDimension, MultiArrayLayout
 
 from amr_description.cdr.padding import without_padding
-from amr_description.ros.cdr_padding import serialize
-from amr_description.ros.cdr_types import layout_of
+from amr_description.ros.layouts import layout_of, serialize
 
 
 def stamped(frame):

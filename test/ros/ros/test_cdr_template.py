@@ -10,7 +10,7 @@ from sensor_msgs.msg import BatteryState, NavSatFix, Range
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from amr_description.ros.cdr_template import is_that_of, template_of
+from amr_description.ros.layouts import is_that_of, template_of
 
 
 def test_a_message_without_gaps_is_its_own_constant():

@@ -11,8 +11,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from ros_gz_interfaces.msg import Contacts, Entity
 from support.running_programs import PATIENCE
 
-from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
-from amr_description.control.ros.node_topics import NodeTopics
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, NodeTopics
 from amr_description.model.frames import Transform
 from amr_description.model.sensors import ContactSensor, SensorMount
 from amr_description.ros.messages import nanoseconds

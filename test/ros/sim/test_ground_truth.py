@@ -14,8 +14,7 @@ from rclpy.node import Node
 from support.running_programs import PATIENCE
 
 from amr_description.clock import NANOSECONDS
-from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
-from amr_description.control.ros.node_topics import NodeTopics
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, NodeTopics
 from amr_description.model.frames import rotate, Transform
 from amr_description.ros.messages import nanoseconds, transform_of
 from amr_description.ros.service_calls import wait_until

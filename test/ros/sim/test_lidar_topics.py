@@ -16,8 +16,7 @@ from rclpy.qos import qos_profile_sensor_data, QoSProfile
 from sensor_msgs.msg import LaserScan, PointCloud2, Range
 from support.running_programs import PATIENCE
 
-from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
-from amr_description.control.ros.node_topics import NodeTopics
+from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, NodeTopics
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo.tags import Noise
 from amr_description.model.sensors import Lidar, ScanAxis, SensorMount

@@ -13,7 +13,7 @@ from support.ros_processes import PATIENCE
 from amr_description.log import Severity
 from amr_description.model.gazebo.translation import translate
 from amr_description.model.urdf import parse
-from amr_description.sim.ros.executor_tasks import abandon, run_in
+from amr_description.sim.ros.entities import abandon, run_in
 from amr_description.simulation.plugin_controllers import log_translation, node_arguments
 
 RULES = '<ros><namespace>/r1</namespace><remapping>odom:=wheel/odom</remapping></ros>'

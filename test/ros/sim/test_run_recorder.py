@@ -22,7 +22,7 @@ from amr_description.control.ros.loop_publisher import ClockedLoopPublisher, Loo
 from amr_description.errors import BagError
 from amr_description.log import Severity
 from amr_description.messages.encoders import filling
-from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.layouts import serialize
 from amr_description.sim.ros.run_recorder import RosRunRecorder
 from amr_description.simulation import run_recorder
 from amr_description.simulation.run_recorder import RunOptions

@@ -18,7 +18,7 @@ from amr_description.bag.run_description import from_text, RunDescription, TOPIC
 from amr_description.control.ros.loop_publisher import ClockedLoopPublisher
 from amr_description.errors import BagError
 from amr_description.log import Severity
-from amr_description.ros.cdr_padding import serialize
+from amr_description.ros.layouts import serialize
 from amr_description.sim.ros.run_recorder import RosRunRecorder
 from amr_description.sim.ros.run_recording import RosRunRecording
 from amr_description.sim.ros.simulation import Simulation

@@ -308,7 +308,7 @@ def test_the_original_is_given_what_it_knows(launch_file, monkeypatch, words, co
         ranges.append(os.environ[variable])
         return 7
 
-    monkeypatch.setattr('amr_description.launch_api.original.launch_by_the_original', original)
+    monkeypatch.setattr('amr_description.launch_api.launch_file.launch_by_the_original', original)
     monkeypatch.setattr('amr_description.bringup.main.main', lambda *_, **__: 5)
     parser = ArgumentParser()
     launch_command.add_arguments(parser)

@@ -11,7 +11,9 @@ from amr_description.controllers.drives.diff_drive_controller import DiffDrivePa
 from amr_description.controllers.drives.mecanum_drive_controller import MecanumDriveParameters
 from amr_description.controllers.drives.tricycle_controller import TricycleParameters
 from amr_description.controllers.forward_command_controller import ForwardCommandParameters
-from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
+from amr_description.controllers.joint_trajectory.parameters import (
+    JointTrajectoryParameters,
+)
 from amr_description.controllers.pid_controller import PidParameters
 from amr_description.former_parameters import understand
 

@@ -7,7 +7,9 @@ import math
 import pytest
 from support.trajectory_arm import Arm
 
-from amr_description.controllers.joint_trajectory.parameters import JointTrajectoryParameters
+from amr_description.controllers.joint_trajectory.parameters import (
+    JointTrajectoryParameters,
+)
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.former_parameters import understand
 

@@ -8,7 +8,7 @@ from fixtures.sim.mecanum import mecanum, omni
 import pytest
 
 from amr_description.controllers.checks.wheeled_drive_files import rollers_of_controllers
-from amr_description.model.rollers import Rollers
+from amr_description.model.wheels import Rollers
 from amr_description.sim.spawning import read_description
 
 MECANUM = """controller_manager:

@@ -9,9 +9,8 @@ from fixtures.launch_files.packages import commands, first_in_the_index, install
 import pytest
 
 from amr_description.errors import BringupError
-from amr_description.launch_api.launch_file import LaunchFile
+from amr_description.launch_api.launch_file import launch_by_the_original, LaunchFile
 from amr_description.launch_api.modules import is_installed, understood
-from amr_description.launch_api.original import launch_by_the_original
 
 BEGIN = 'def generate_launch_description():\n    '
 

@@ -8,7 +8,7 @@ from fixtures.sim.mecanum import mecanum
 import pytest
 
 from amr_description.model.gazebo.physics import gazebo_physics_of
-from amr_description.model.rollers import described_rollers, roller_angle, Rollers
+from amr_description.model.wheels import described_rollers, roller_angle, Rollers
 from amr_description.sim.spawning import read_description
 
 EIGHTH = math.pi / 4

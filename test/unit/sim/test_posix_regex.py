@@ -7,7 +7,7 @@ import subprocess
 import pytest
 
 from amr_description.errors import UsageError
-from amr_description.sim.ros.posix_regex import PosixRegex
+from amr_description.sim.ros.entity_services import PosixRegex
 
 NAMES = ['amr', 'amr_1', 'amr_12', 'arm-2', 'Box.3', 'd', 'größe', '']
 EXPRESSIONS = [

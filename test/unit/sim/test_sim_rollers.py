@@ -12,7 +12,7 @@ from amr_description.controllers.drives.mecanum_drive_controller import MecanumK
 from amr_description.controllers.drives.omni_wheel_drive_controller import OmniKinematics
 from amr_description.log import null_log
 from amr_description.model.frames import Transform
-from amr_description.model.rollers import Rollers
+from amr_description.model.wheels import Rollers
 from amr_description.sim.drop_test import drop_test
 from amr_description.sim.robot_spec import build_robot
 from amr_description.sim.spawning import read_description

@@ -17,7 +17,7 @@ from amr_description.model.frames import Transform
 from amr_description.parameters import parameter
 from amr_description.plugin_errors import log_error
 from amr_description.sim.spawning import checked_namespace
-from amr_description.simulation.log_lines import LogLines
+from amr_description.simulation.local_manager import LogLines
 
 URDF = ROOT / 'urdf' / 'amr.urdf'
 CMD_VEL = '/diff_drive_controller/cmd_vel'

@@ -1,11 +1,13 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The layouts of message classes of rosidl; this module imports no rclpy."""
+"""Messages of rclpy as bytes: their layouts, their templates, equal bytes of equal messages."""
 
+from collections.abc import Collection
 from functools import cache
 import importlib
 from typing import Any
 
+from rclpy.serialization import serialize_message
 from rosidl_parser.definition import (
     AbstractNestedType,
     AbstractString,
@@ -15,7 +17,10 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
+from amr_description.cdr import template
 from amr_description.cdr.layouts import CODES, FieldGroup, group, Layout, many, Number, Text
+from amr_description.cdr.padding import without_padding
+from amr_description.cdr.template import Template
 
 
 @cache
@@ -39,3 +44,27 @@ def _layout(slot: Any) -> Layout:
     assert isinstance(slot, AbstractNestedType), f'{slot} is no type of a field'
     element = _layout(slot.value_type)
     return many(element, slot.size if isinstance(slot, Array) else None)
+
+
+# --- Equal bytes of equal messages ---------------------------------------------------------------
+#
+# What aligns numbers has whatever was in memory, where rclpy serializes; here it is zero.
+
+
+def serialize(message: Any) -> bytes:
+    """Return the bytes of a message, which are those of every equal one."""
+    kind: Any = type(message)
+    return without_padding(layout_of(kind), bytes(serialize_message(message)))
+
+
+def template_of(
+    message: Any, changing: Collection[str], *, blocks: Collection[str] = ()
+) -> Template:
+    """Return the template of a message of rclpy; see that of the same name there."""
+    kind: Any = type(message)
+    return template.template_of(layout_of(kind), message, changing, blocks=blocks)
+
+
+def is_that_of(message: Any, data: bytes, made: Template) -> bool:
+    """Return whether bytes that a template has made are those that rclpy makes of a message."""
+    return made.has_made(data, serialize_message(message))
