@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A place in a serialized message (:mod:`amr_description.ros.cdr`), which goes on from part to part.
+A place in a serialized message (:mod:`amr_description.cdr`), which goes on from part to part.
 """
 
 import struct

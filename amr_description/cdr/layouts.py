@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-How messages are laid out in plain CDR (see :mod:`amr_description.ros.cdr`).
+How messages are laid out in plain CDR (see :mod:`amr_description.cdr`).
 
 A layout is made once of a type of messages. It tells where what follows a field begins: the
 size of a part without strings and sequences depends on nothing but where it begins, modulo 8.

@@ -8,7 +8,7 @@ message that is sent again and again most is constant: names, frames, covariance
 :class:`Template` is made once from such a message; then one ``struct.pack``, 1 µs, makes the bytes
 of the next one.
 
-The bytes are plain CDR (see :mod:`amr_description.ros.cdr`), little endian. Whether a middleware
+The bytes are plain CDR (see :mod:`amr_description.cdr`), little endian. Whether a middleware
 at hand writes the same is for the caller to see, once, by :meth:`Template.has_made`.
 """
 

@@ -6,7 +6,7 @@ Serialized messages, written without making messages of them.
 For those whose sequences and strings change with each, which no template
 (:mod:`amr_description.cdr.template`) fits. It is three times as fast as filling a message, and
 what aligns numbers is 0: rclpy leaves there what was in memory, so that equal messages have other
-bytes. The format is that of :mod:`amr_description.ros.cdr`.
+bytes. The format is that of :mod:`amr_description.cdr`.
 """
 
 from collections.abc import Sequence

@@ -34,11 +34,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``messages.py``           stamps, poses and velocities ↔ messages
 ``message_fields.py``     what was typed -> the fields of a message; ``auto`` and ``now``
 ``message_types.py``      classes of messages, services and actions by their names
-``cdr.py``                serialized messages, read without making messages of them
-``cdr_sensors.py``        … those of sensors, whose arrays are not copied
-``cdr_navigation.py``     … maps and paths
-``cdr_fields.py``         … some numbers of them, by their paths
-``cdr_tree.py``           … or all of one, shortened, as JSON has it
-``layouts.py``            … their layouts, and templates that make them (``cdr/``)
+``layouts.py``            messages as bytes: their layouts, and templates that make them (``cdr/``)
+``readers.py``            … read without making messages of them: a row for each type
 ========================= =========================================================================
 """

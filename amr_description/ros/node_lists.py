@@ -20,8 +20,8 @@ from functools import cache
 
 from rclpy.node import Node
 
-from amr_description.ros.cdr import Reader
 from amr_description.ros.publisher_gids import Allocator, SerializedMessage
+from amr_description.ros.readers import Array, Row
 
 TOPIC = 'ros_discovery_info'
 """The topic's name in DDS."""
@@ -109,16 +109,28 @@ def read_node_list(data: bytes) -> tuple[bytes, NodeList]:
     Raises:
         ValueError: The bytes are none.
     """
-    reader = Reader(data)
-    gid = reader.octets(_GID)
-    nodes: Counter[tuple[str, str]] = Counter()
-    endpoints: set[bytes] = set()
-    for _ in range(reader.count()):
-        namespace, name = reader.text(), reader.text()
-        nodes[name, namespace] += 1
-        for _kind in ('subscriptions', 'publishers'):
-            endpoints.update(reader.octets(_GID) for _ in range(reader.count()))
-    return gid, NodeList(nodes, frozenset(endpoints))
+    return _NODE_LIST.read(data)
+
+
+def _node_list(
+    gid: Array, namespaces: list[str], names: list[str], *endpoints: list[list[Array]]
+) -> tuple[bytes, NodeList]:
+    nodes = Counter(zip(names, namespaces, strict=True))
+    gids = (each for kind in endpoints for node in kind for each in node)
+    return gid.tobytes(), NodeList(nodes, frozenset(each.tobytes() for each in gids))
+
+
+_NODE_LIST = Row(
+    'rmw_dds_common/msg/ParticipantEntitiesInfo',
+    (
+        'gid.data',
+        'node_entities_info_seq[].node_namespace',
+        'node_entities_info_seq[].node_name',
+        'node_entities_info_seq[].reader_gid_seq[].data',
+        'node_entities_info_seq[].writer_gid_seq[].data',
+    ),
+    _node_list,
+)
 
 
 class _Qos(ctypes.Structure):

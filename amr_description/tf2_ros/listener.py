@@ -28,9 +28,9 @@ from rclpy.serialization import deserialize_message
 from tf2_msgs.msg import TFMessage
 
 from amr_description.model.frames import Transform
-from amr_description.ros.cdr import read_stamped_transforms
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.qos import TF_STATIC
+from amr_description.ros.readers import TRANSFORMS
 from amr_description.ros.runtime import spin
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.buffer_core import DEFAULT_AUTHORITY
@@ -138,15 +138,15 @@ class TransformListener:
         self, data: bytes, callback: Callable[[TFMessage], None], *, is_static: bool
     ) -> None:
         try:
-            read = read_stamped_transforms(data)
+            frames = TRANSFORMS.read(data)
         except ValueError:  # not plain CDR, or a name that is no UTF-8
             with suppress(RuntimeError):  # nor a message at all: rclpy drops such, too
                 callback(deserialize_message(data, TFMessage))
             return
-        for time, frame in read:
+        for frame in frames:
             x, y, z, qx, qy, qz, qw = frame.pose
             transform = Transform((x, y, z), (qx, qy, qz, qw))
-            stamped = StampedTransform(frame.parent, frame.name, time, transform)
+            stamped = StampedTransform(frame.parent, frame.name, frame.stamp, transform)
             self.buffer.insert(stamped, DEFAULT_AUTHORITY, static=is_static)
 
     def publishers(self) -> dict[str, list[str]]:

@@ -35,13 +35,13 @@ FEW_LINES = 80
 # their faults and seeds, robots as environments to learn in, arms of plugins that are tried by
 # their topics, and patience with a simulator that works.
 BUDGETS = {
-    'modules': 820,
-    'code lines': 93_380,
+    'modules': 818,
+    'code lines': 93_445,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
-    'modules with many public names': 27,
-    'code lines of helpers in test files': 26_198,
+    'modules with many public names': 26,
+    'code lines of helpers in test files': 26_166,
 }
 
 BASE = {

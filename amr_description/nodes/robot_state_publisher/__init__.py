@@ -30,7 +30,7 @@ stamps (``robot_state.JointThrottle``). It differs from the original as follows:
 * an unusable description ends the node with one line and exit code 1, instead of an abort;
 * ``/tf_static`` has the fixed joints of the present description only.
 
-Joint states are taken as bytes, in a thread of their own, and decoded only if they are published.
+Joint states are taken as bytes, in a thread of their own, and no messages are made of them.
 While the only publisher's next message is not due yet by its stamps, that thread rests, and then
 takes in their order what has come meanwhile: which messages are published does not depend on it.
 One that comes earlier than those before let expect is published late, by 50 ms at most.
@@ -68,7 +68,6 @@ from amr_description.nodes.robot_state_publisher.robot_state import (
 from amr_description.nodes.robot_state_publisher.transforms import TransformEncoder
 from amr_description.parameters import parameter
 from amr_description.ros.arguments import read_description, split_arguments
-from amr_description.ros.cdr import HeadReader, read_positions
 from amr_description.ros.node_help import DESCRIPTION, print_help
 from amr_description.ros.parameters import (
     add_parameter_event_qos_overrides,
@@ -78,6 +77,7 @@ from amr_description.ros.parameters import (
 )
 from amr_description.ros.polled_topic import PollingNode
 from amr_description.ros.qos import LATCHED
+from amr_description.ros.readers import JOINT_STATE
 from amr_description.ros.runtime import run
 from amr_description.ros.topic_thread import TopicThread
 
@@ -133,7 +133,7 @@ class RobotStatePublisher(PollingNode):
         self._throttle = JointThrottle()
         self._arrivals = Arrivals()
         self._lock = threading.Lock()  # of all that joint states and parameters have in common
-        self._heads = HeadReader()
+        self._read = JOINT_STATE.reader()
         self._time_jumps = TimeJumpFilter()
         self._latest = 0  # stamp, ns
         self._description = self.create_publisher(String, 'robot_description', LATCHED)
@@ -238,7 +238,7 @@ class RobotStatePublisher(PollingNode):
 
     def _thin(self, data: bytes, arrival: int) -> bool:
         """
-        Publish a serialized JointState if it is due; most are not, and so not decoded.
+        Publish a serialized JointState if it is due; most are not.
 
         Returns:
             Whether it counts as published, with transforms or without.
@@ -248,25 +248,24 @@ class RobotStatePublisher(PollingNode):
             self.get_logger().warning('Moved backwards in time, re-publishing joint transforms!')
             self._throttle.forget()
         try:
-            head = self._heads.read(data)
-            stamp = head.stamp or now
+            state = self._read(data)
+            names, stamp = tuple(state.names), state.stamp or now
             before, self._latest = self._latest, stamp
             if stamp < before - _RESET_GAP and self._joint_states.publisher_count == 1:
                 self._throttle.forget()
             if self._time_jumps.is_stale(stamp):
                 return False
-            if not (self._throttle.admit(head.names, stamp) or self._settings.ignore_timestamp):
+            if not (self._throttle.admit(names, stamp) or self._settings.ignore_timestamp):
                 return False
-            positions = read_positions(data, head)
         except ValueError as error:
             self._log_invalid(str(error))
             return False
-        if len(head.names) != len(positions):
-            self._log_mismatch(head.names, positions)
+        if len(names) != len(state.positions):
+            self._log_mismatch(names, state.positions)
             return False
-        self._throttle.note(head.names, stamp, self._period)
+        self._throttle.note(names, stamp, self._period)
         self._arrivals.note(stamp, arrival)
-        transforms = self._state.moving(dict(zip(head.names, positions, strict=True)))
+        transforms = self._state.moving(dict(zip(names, state.positions, strict=True)))
         if transforms:
             self._moving.publish(self._encoder.encode(transforms, stamp))
         return True

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from rclpy.node import Node
 
+from amr_description.cdr.fields import FieldReader, NOT_THERE, why_no_number
 from amr_description.cdr.layouts import FieldGroup, Many, Number
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError
-from amr_description.ros.cdr_fields import FieldReader, NOT_THERE, why_no_number
 from amr_description.ros.layouts import layout_of
 from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.viewer.protocol import Origin, Values
@@ -153,10 +153,11 @@ class FieldFeed:
 
 def fields_of(message_class: Any, paths: tuple[str, ...]) -> Fields:
     """Return what reads these paths of the messages of a class; those that lead nowhere, too."""
-    faults = {path: why for path in paths if (why := why_no_number(message_class, path))}
-    stamp = () if why_no_number(message_class, _STAMP[0]) else _STAMP
+    layout = layout_of(message_class)
+    faults = {path: why for path in paths if (why := why_no_number(layout, path))}
+    stamp = () if why_no_number(layout, _STAMP[0]) else _STAMP
     good = [path for path in paths if path not in faults]
-    read = FieldReader(message_class, (*stamp, *good)).read
+    read = FieldReader(layout, (*stamp, *good)).read
     if stamp and not faults:
         return Fields(paths, {}, read)
     places = [2 + paths.index(path) for path in good]

@@ -10,7 +10,7 @@ see :mod:`amr_description.launch_log`.
 
 from collections import deque
 import os
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from rcl_interfaces.msg import Log as LogMessage
 from rclpy.node import Node
@@ -18,8 +18,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from amr_description.clock import NANOSECONDS
 from amr_description.launch_log import LAUNCH_LOG, launch_warnings
-from amr_description.ros.cdr import Reader
 from amr_description.ros.polled_topic import PolledTopic
+from amr_description.ros.readers import Row
 from amr_description.viewer.introspection import LogLine
 
 MOST_KEPT = 500
@@ -93,12 +93,18 @@ def launch_lines(file: str) -> list[LogLine]:
     ]
 
 
+_LOG: Row[tuple[Any, ...]] = Row(
+    'rcl_interfaces/msg/Log',
+    ('stamp.sec', 'stamp.nanosec', 'level', 'name', 'msg', 'file', 'function', 'line'),
+    lambda *values: values,
+)
+
+
 def read_line(data: bytes, number: int) -> LogLine:
     """Read a ``rcl_interfaces/msg/Log``. Raises ValueError."""
-    reader = Reader(data)
-    stamp = reader.stamp() / NANOSECONDS
-    severity = reader.octets(1)[0]
+    seconds, nanoseconds, severity, *texts, line = _LOG.read(data)
     level: Level = next((name for least, name in _LEVELS if severity >= least), 'debug')
-    node, text, file, function = (reader.text()[:_LONGEST] for _ in range(4))
-    place = f'{function} ({file.rpartition("/")[2]}:{reader.count()})' if file else function
+    node, text, file, function = (each[:_LONGEST] for each in texts)
+    place = f'{function} ({file.rpartition("/")[2]}:{line})' if file else function
+    stamp = (seconds * NANOSECONDS + nanoseconds) / NANOSECONDS
     return LogLine(number, stamp, level, node, text, place)

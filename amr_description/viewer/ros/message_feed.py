@@ -9,7 +9,7 @@ import json
 from rclpy.node import Node
 
 from amr_description.cdr.layouts import FieldGroup
-from amr_description.ros.cdr_tree import read_tree
+from amr_description.cdr.tree import read_tree
 from amr_description.ros.layouts import layout_of
 from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.text import shorten

@@ -10,7 +10,7 @@ import numpy as np
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import ViewerError
-from amr_description.ros.cdr_navigation import read_grid, read_path
+from amr_description.ros.readers import GRID, PATH
 from amr_description.viewer.protocol import OccupancyGrid, Origin, Route
 
 MOST_CELLS = 4096
@@ -36,7 +36,7 @@ def grid_sample(data: bytes, origin: Origin) -> tuple[OccupancyGrid, tuple[bytes
         ViewerError: a page cannot draw it.
         ValueError: it ends too early.
     """
-    grid = read_grid(data)
+    grid = GRID.read(data)
     size = f'a map of {grid.width} × {grid.height} cells'
     if not 0 < grid.width <= MOST_CELLS or not 0 < grid.height <= MOST_CELLS:
         raise ViewerError(f'{size}: the page draws 1 to {MOST_CELLS} a side')
@@ -66,7 +66,7 @@ def path_sample(data: bytes, origin: Origin) -> tuple[Route, tuple[np.ndarray]]:
     Raises:
         ValueError: it ends too early.
     """
-    path = read_path(data)
+    path = PATH.read(data)
     points = path.points[np.isfinite(path.points).all(axis=1)]
     length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     step = max(1, -(-len(points) // MOST_POSES))

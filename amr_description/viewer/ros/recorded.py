@@ -21,15 +21,15 @@ from amr_description.bag.reader import BagReader
 from amr_description.bag.storage import TopicMetadata
 from amr_description.clock import NANOSECONDS
 from amr_description.model.robot import Joint
-from amr_description.ros.cdr import (
-    DynamicJointStateReader,
+from amr_description.ros.readers import (
+    CLOCK,
+    DYNAMIC_JOINT_STATE,
     FramePose,
-    JointStateReader,
-    read_clock,
-    read_odometry,
-    read_transforms,
-    read_twist,
-    read_twist_stamped,
+    JOINT_STATE,
+    ODOMETRY,
+    TRANSFORMS,
+    TWIST,
+    TWIST_STAMPED,
 )
 from amr_description.viewer.description import describe_robot, DescribedRobot
 from amr_description.viewer.graph import (
@@ -86,8 +86,10 @@ class RecordedFrames:
         namespace = topic.rpartition('/')[0].lstrip('/')
         prefix = f'{namespace}/' if namespace else ''
 
+        read = TRANSFORMS.reader()
+
         def take(time: int, data: bytes) -> None:
-            for each in read_transforms(data):
+            for each in read(data):
                 self._add(time, prefix, each, topic)
 
         return take
@@ -183,14 +185,14 @@ class RecordedRobot:
         if found.joint_states is not None:
             takes[found.joint_states] = self._joint_taker()
         if found.odometry is not None:
-            takes[found.odometry] = _taker(self._odometry, read_odometry)
+            takes[found.odometry] = _taker(self._odometry, ODOMETRY.reader())
         if found.truth is not None:
-            takes[found.truth] = _taker(self._truth, read_odometry)
+            takes[found.truth] = _taker(self._truth, ODOMETRY.reader())
         if found.wheels is not None:
             takes[found.wheels] = self._wheel_taker()
         if command is not None:
-            read = read_twist_stamped if command.type == TWISTS[0] else read_twist
-            takes[command.name] = _taker(self._commands, read)
+            row = TWIST_STAMPED if command.type == TWISTS[0] else TWIST
+            takes[command.name] = _taker(self._commands, row.reader())
         return takes
 
     def _describe(self, _: int, data: bytes) -> None:
@@ -199,11 +201,11 @@ class RecordedRobot:
             self.described = describe_robot(self.found.id, text)
 
     def _joint_taker(self) -> Take:
-        read = JointStateReader()
+        read = JOINT_STATE.reader()
 
         def take(time: int, data: bytes) -> None:
             values = read(data)
-            missing = (math.nan,) * len(values.names)
+            missing = [math.nan] * len(values.names)
             velocities = values.velocities or missing
             for name, pair in zip(
                 values.names,
@@ -218,7 +220,7 @@ class RecordedRobot:
         return take
 
     def _wheel_taker(self) -> Take:
-        read = DynamicJointStateReader()
+        read = DYNAMIC_JOINT_STATE.reader()
 
         def take(time: int, data: bytes) -> None:
             found = read(data)
@@ -307,7 +309,7 @@ class Recorded:
             if topic.type == TF and name.rpartition('/')[2] in ('tf', 'tf_static'):
                 takes[name] = self.frames.takes(name)
             elif topic.type == _CLOCK and name == '/clock':
-                takes[name] = lambda time, data: self._clock.add(time, read_clock(data))
+                takes[name] = lambda time, data: self._clock.add(time, CLOCK.read(data))
             elif topic.type == _LOG and name == '/rosout':
                 takes[name] = self._add_line
             elif topic.type == MARKERS and name.endswith('/world'):

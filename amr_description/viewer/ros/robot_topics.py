@@ -19,20 +19,20 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from amr_description.ros.cdr import (
-    DynamicJointStateReader,
-    InterfaceValues,
-    JointStateReader,
-    JointValues,
-    read_odometry,
-    read_statistics_names,
-    read_statistics_values,
-    read_transforms,
-    read_twist,
-    read_twist_stamped,
-)
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.qos import LATCHED, TF_STATIC
+from amr_description.ros.readers import (
+    DYNAMIC_JOINT_STATE,
+    InterfaceValues,
+    JOINT_STATE,
+    JointValues,
+    ODOMETRY,
+    STATISTICS_NAMES,
+    STATISTICS_VALUES,
+    TRANSFORMS,
+    TWIST,
+    TWIST_STAMPED,
+)
 from amr_description.viewer.graph import FoundRobot, TWISTS
 from amr_description.viewer.protocol import FrameInfo, RobotAges, RobotLayout
 from amr_description.viewer.requests import Part
@@ -68,8 +68,8 @@ class TransformTopics:
             static, moving = f'{namespace}/tf_static', f'{namespace}/tf'
             prefix = f'{namespace[1:]}/' if namespace else ''
             self._topics += [
-                (prefix, PolledTopic(node, TFMessage, static, read_transforms, qos=TF_STATIC)),
-                (prefix, PolledTopic(node, TFMessage, moving, read_transforms, depth=100)),
+                (prefix, PolledTopic(node, TFMessage, static, TRANSFORMS.reader(), qos=TF_STATIC)),
+                (prefix, PolledTopic(node, TFMessage, moving, TRANSFORMS.reader(), depth=100)),
             ]
         self._poses: dict[str, tuple[float, ...]] = {}
         self._parents: dict[str, str] = {}
@@ -139,10 +139,10 @@ class CommandedVelocities:
     def __init__(self, node: Node, prefix: str, joints: Sequence[str]) -> None:
         self._wanted = [f'command_interface.{joint}/velocity' for joint in joints]
         self._names = PolledTopic(
-            node, StatisticsNames, f'{prefix}/names', read_statistics_names, qos=LATCHED
+            node, StatisticsNames, f'{prefix}/names', STATISTICS_NAMES.reader(), qos=LATCHED
         )
         self._values = PolledTopic(
-            node, StatisticsValues, f'{prefix}/values', read_statistics_values
+            node, StatisticsValues, f'{prefix}/values', STATISTICS_VALUES.reader()
         )
         self._version: int | None = None
         self._indices: list[int | None] = []
@@ -200,7 +200,7 @@ class WheelContacts:
             self.destroy()
         elif self._topic is None:
             self._topic = PolledTopic(
-                self._node, DynamicJointState, self._name, DynamicJointStateReader()
+                self._node, DynamicJointState, self._name, DYNAMIC_JOINT_STATE.reader()
             )
 
     def take(self) -> InterfaceValues | None:
@@ -380,9 +380,9 @@ class RobotTopics:
 
 def _sources(found: FoundRobot) -> Iterator[tuple[str, Any, str | None, Callable[[bytes], Any]]]:
     """Yield part of the state, message type, topic, and the function that decodes a message."""
-    yield 'joint_states', JointState, found.joint_states, JointStateReader()
-    yield 'odometry', Odometry, found.odometry, read_odometry
-    yield 'truth', Odometry, found.truth, read_odometry
+    yield 'joint_states', JointState, found.joint_states, JOINT_STATE.reader()
+    yield 'odometry', Odometry, found.odometry, ODOMETRY.reader()
+    yield 'truth', Odometry, found.truth, ODOMETRY.reader()
 
 
 def hundredths(age: float | None) -> float | None:
@@ -394,8 +394,8 @@ def _command_topic(node: Node, found: FoundRobot) -> CommandTopic | None:
     if found.command is None:
         return None
     message_type = COMMAND_TYPES[found.command.message]
-    read = read_twist if message_type is Twist else read_twist_stamped
-    return CommandTopic(node, message_type, found.command.topic, read)
+    row = TWIST if message_type is Twist else TWIST_STAMPED
+    return CommandTopic(node, message_type, found.command.topic, row.reader())
 
 
 def _forget(part: str, floats: RobotFloats) -> None:

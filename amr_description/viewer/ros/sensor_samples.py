@@ -16,20 +16,14 @@ import numpy as np
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import ViewerError
-from amr_description.ros.cdr_sensors import (
+from amr_description.ros import readers
+from amr_description.ros.readers import (
     CloudData,
     CompressedData,
     ContactsData,
     Header,
     ImageData,
     RangeData,
-    read_cloud,
-    read_compressed_image,
-    read_contacts,
-    read_contacts_state,
-    read_image,
-    read_range,
-    read_scan,
     ScanData,
 )
 from amr_description.text import shorten
@@ -100,7 +94,7 @@ def unreadable(topic: str, text: str, rate: float | None = None) -> bytes:
 
 
 def _scan(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    scan: ScanData = read_scan(data)
+    scan: ScanData = readers.SCAN.read(data)
     count = len(scan.ranges)
     thin = max(1, -(-count // MOST_RAYS))
     increment = scan.angle_increment * thin
@@ -118,7 +112,7 @@ def _scan(data: bytes, origin: Origin) -> tuple[Head, Parts]:
 
 
 def _cloud(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    cloud: CloudData = read_cloud(data)
+    cloud: CloudData = readers.CLOUD.read(data)
     step, count = cloud.point_step, cloud.width * cloud.height
     octets, row = cloud.data, cloud.width * cloud.point_step
     if cloud.height > 1 and 0 < row < cloud.row_step <= len(octets) // cloud.height:
@@ -130,7 +124,7 @@ def _cloud(data: bytes, origin: Origin) -> tuple[Head, Parts]:
 
 
 def _image(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    image: ImageData = read_image(data)
+    image: ImageData = readers.IMAGE.read(data)
     picture = picture_of_pixels(
         image.encoding,
         image.width,
@@ -143,7 +137,7 @@ def _image(data: bytes, origin: Origin) -> tuple[Head, Parts]:
 
 
 def _compressed_image(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    image: CompressedData = read_compressed_image(data)
+    image: CompressedData = readers.COMPRESSED_IMAGE.read(data)
     picture = picture_of_file(image.data.tobytes())
     return _picture(_origin(origin, image.header), shorten(image.format), picture)
 
@@ -154,7 +148,7 @@ def _picture(origin: Origin, encoding: str, picture: SmallPicture) -> tuple[Head
 
 
 def _range(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    found: RangeData = read_range(data)
+    found: RangeData = readers.RANGE.read(data)
     head = Distance(
         _origin(origin, found.header),
         _finite(found.field_of_view),
@@ -165,12 +159,12 @@ def _range(data: bytes, origin: Origin) -> tuple[Head, Parts]:
 
 
 def _gz_contacts(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    found = read_contacts(data)
+    found = readers.CONTACTS.read(data)
     return _contacts(replace(found, header=replace(found.header, frame=_WORLD)), origin)
 
 
 def _classic_contacts(data: bytes, origin: Origin) -> tuple[Head, Parts]:
-    return _contacts(read_contacts_state(data), origin)
+    return _contacts(readers.CONTACTS_STATE.read(data), origin)
 
 
 def _contacts(found: ContactsData, origin: Origin) -> tuple[Head, Parts]:

@@ -16,9 +16,9 @@ from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
 from amr_description.clock import NANOSECONDS
-from amr_description.ros.cdr import read_clock
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.qos import CLOCK
+from amr_description.ros.readers import CLOCK as CLOCK_ROW
 from amr_description.viewer.protocol import Ages, Layout, ServerMessage, TimeReset
 from amr_description.viewer.real_time import RealTimeFactor, STALE
 from amr_description.viewer.ros.robot_topics import hundredths, RobotTopics, TransformTopics
@@ -29,7 +29,7 @@ class RosClock:
     """The time of /clock, and the real-time factor."""
 
     def __init__(self, node: Node) -> None:
-        self._topic = PolledTopic(node, Clock, '/clock', read_clock, qos=CLOCK)
+        self._topic = PolledTopic(node, Clock, '/clock', CLOCK_ROW.reader(), qos=CLOCK)
         self._factor = RealTimeFactor()
         self._jumped_back = False
         self._last: int | None = None

@@ -14,10 +14,10 @@ from rclpy.node import Node
 from tf2_msgs.msg import TFMessage
 
 from amr_description.clock import NANOSECONDS
-from amr_description.ros.cdr import read_transforms
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.qos import TF_STATIC
+from amr_description.ros.readers import TRANSFORMS
 from amr_description.viewer.introspection import FrameStatus, Transforms
 
 _WINDOW = 3.0
@@ -102,7 +102,7 @@ class TransformList:
             if (message := topic.take_numbered()) is None:
                 return
             try:
-                transforms = read_transforms(message.data)
+                transforms = TRANSFORMS.read(message.data)
             except ValueError:
                 continue
             for each in transforms:

@@ -9,6 +9,7 @@ import random
 import struct
 import sys
 
+from control_msgs.msg import DynamicJointState, InterfaceValue
 from hypothesis import given, strategies as st
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
@@ -23,10 +24,10 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 from tf2_msgs.msg import TFMessage
 
+from amr_description.cdr.fields import FieldReader, MOST_PARTS, why_no_number
 from amr_description.cdr.layouts import CODES
+from amr_description.cdr.tree import MOST_NUMBERS, read_tree
 from amr_description.errors import AmrError
-from amr_description.ros.cdr_fields import FieldReader
-from amr_description.ros.cdr_tree import MOST_NUMBERS, read_tree
 from amr_description.ros.layouts import layout_of
 from amr_description.ros.message_types import type_name
 
@@ -49,6 +50,7 @@ def installed_types():
 
 
 TYPES = installed_types()
+STATE = layout_of(JointState)
 
 
 def filled(message_type, rng):
@@ -127,7 +129,7 @@ def test_fields_and_trees_are_what_rclpy_reads(message_type):
             path: float(value) for path, value in message.items() if not isinstance(value, str)
         }
         paths = rng.sample(sorted(numbers), min(len(numbers), 12))
-        found = FieldReader(message_type, paths).read(data)
+        found = FieldReader(layout_of(message_type), paths).read(data)
         assert list(map(str, map(float, found))) == [str(numbers[path]) for path in paths]
         tree = dict(of_tree(read_tree(layout_of(message_type), data)))
         assert tree.keys() <= message.keys()
@@ -140,22 +142,22 @@ def test_both_byte_orders_are_read():
     assert fields == (0, 0, 2, 1.5, -2.0)
     big += struct.pack('>III4xdd', *fields)
     for data in (little, bytes(big)):
-        assert FieldReader(Float64MultiArray, ['data[1]']).read(data) == [-2.0]
+        assert FieldReader(layout_of(Float64MultiArray), ['data[1]']).read(data) == [-2.0]
         assert read_tree(layout_of(Float64MultiArray), data)['data'] == [1.5, -2.0]
 
 
 def test_an_element_that_is_not_there_is_nan():
     data = serialize_message(JointState(position=[1.0, 2.0]))
-    first, third, again = FieldReader(
-        JointState, ['position[0]', 'position[2]', 'position[0]']
-    ).read(data)
+    first, third, again = FieldReader(STATE, ['position[0]', 'position[2]', 'position[0]']).read(
+        data
+    )
     assert (first, again, math.isnan(third)) == (1.0, 1.0, True)
 
 
 def test_one_reader_follows_lengths_as_they_change():
     """Also back to lengths that it has seen, in turns of more than it remembers."""
     rng = random.Random(1)
-    reader = FieldReader(JointState, ['velocity[1]', 'header.stamp.sec', 'position[0]'])
+    reader = FieldReader(STATE, ['velocity[1]', 'header.stamp.sec', 'position[0]'])
     for turn in range(60):
         state = JointState(name=['a' * (turn % 7)] * rng.randrange(2))
         state.header.stamp.sec, state.header.frame_id = turn, 'b' * rng.randrange(3)
@@ -168,7 +170,7 @@ def test_one_reader_follows_lengths_as_they_change():
 @given(st.integers(0, 200))
 def test_a_message_that_ends_too_early_is_refused_by_who_has_seen_it_whole(length):
     whole = serialize_message(JointState(name=['a', 'bc'], position=[1.0, 2.0]))
-    reader = FieldReader(JointState, ['position[1]'])
+    reader = FieldReader(STATE, ['position[1]'])
     assert reader.read(whole) == [2.0]
     needed = whole.index(struct.pack('<d', 2.0)) + 8
     if length < needed:
@@ -202,10 +204,64 @@ def test_long_arrays_and_strings_are_shortened_with_their_length():
     ],
 )
 def test_a_path_that_leads_nowhere_is_refused_in_one_line(path, reason):
-    with pytest.raises(AmrError) as refused:
-        FieldReader(JointState, [path])
-    assert str(refused.value).startswith(reason)
-    assert '\n' not in str(refused.value)
+    found = why_no_number(STATE, path)
+    assert found.startswith(reason)
+    assert '\n' not in found
+    assert why_no_number(STATE, 'position[7]') == ''
+
+
+@pytest.mark.parametrize('path', ['header', 'header[0]', 'positon', '', 'name[', 'name[].x'])
+def test_what_is_neither_number_string_nor_array_cannot_be_read(path):
+    with pytest.raises(AmrError, match='no number|no path|no field|without'):
+        FieldReader(STATE, [path])
+
+
+def test_strings_arrays_and_each_element_are_read():
+    state = JointState(name=['left', 'ø'], position=[1.0, 2.0, 3.0])
+    state.header.frame_id = 'base'
+    paths = [
+        'header.frame_id',
+        'name[]',
+        'position[]',
+        'position',
+        'name[1]',
+        'velocity[]',
+        'name[2]',
+    ]
+    reader = FieldReader(STATE, [*paths, 'header.frame_id'])
+    data = serialize_message(state)
+    for _ in ('by a walk', 'by what it remembers', 'again'):
+        frame, names, each, array, second, none, third, again = reader.read(data)
+        assert (frame, again, names, second) == ('base', 'base', ['left', 'ø'], 'ø')
+        assert (each, array.tolist(), none) == ([1.0, 2.0, 3.0], [1.0, 2.0, 3.0], [])
+        assert math.isnan(third)
+        assert not array.flags.owndata  # no copy
+
+
+def test_elements_of_elements_are_lists_of_lists():
+    layout = layout_of(DynamicJointState)
+    message = DynamicJointState(
+        interface_values=[
+            InterfaceValue(interface_names=['a', 'b'], values=[1.0, 2.0]),
+            InterfaceValue(),
+            InterfaceValue(interface_names=['c'], values=[3.0]),
+        ]
+    )
+    reader = FieldReader(
+        layout, ['interface_values[].values[]', 'interface_values[].interface_names[]']
+    )
+    for _ in range(3):
+        values, names = reader.read(serialize_message(message))
+        assert values == [[1.0, 2.0], [], [3.0]]
+        assert names == [['a', 'b'], [], ['c']]
+
+
+def test_more_parts_than_anybody_needs_are_refused():
+    data = serialize_message(Float64MultiArray(data=[0.0] * (MOST_PARTS + 1)))
+    with pytest.raises(ValueError, match=f'more than {MOST_PARTS} parts'):
+        FieldReader(layout_of(Float64MultiArray), ['data[]']).read(data)
+    (array,) = FieldReader(layout_of(Float64MultiArray), ['data']).read(data)
+    assert len(array) == MOST_PARTS + 1
 
 
 @given(st.integers(0, 400), st.binary(min_size=1, max_size=6))
@@ -213,7 +269,7 @@ def test_broken_bytes_are_refused_or_read(at, noise):
     whole = serialize_message(filled(TFMessage, random.Random(3)))
     data = whole[: min(at, len(whole))] + noise + whole[at + len(noise) :]
     for read in (
-        FieldReader(TFMessage, ['transforms[1].transform.translation.x']).read,
+        FieldReader(layout_of(TFMessage), ['transforms[1].transform.translation.x']).read,
         lambda bytes_: read_tree(layout_of(TFMessage), bytes_),
     ):
         try:

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from amr_description.ros.cdr import InterfaceValues, JointValues
+from amr_description.ros.readers import InterfaceValues, JointValues
 from amr_description.viewer.graph import FoundRobot
 from amr_description.viewer.protocol import Layout
 from amr_description.viewer.ros import robot_topics
@@ -141,7 +141,7 @@ def test_a_layout_laid_out_anew_has_no_value_that_nobody_watches(robot, opened, 
 def test_joints_stay_known_when_other_topics_of_the_robot_change(robot, opened, topic, known):
     before = RobotTopics(None, replace(robot.found, joint_states='/joint_states'), ('arm',))
     joint_states = next(each for each in opened[1:] if each.name == '/joint_states')
-    joint_states.message = JointValues(['arm'], [0.25], [])
+    joint_states.message = JointValues(0, ['arm'], [0.25], [])
     before.take(0)
     found = replace(robot.found, joint_states=topic, odometry='/odom')
     after = RobotTopics(None, found, ('arm',))
@@ -164,7 +164,7 @@ def measured(opened, robot, wall):
     topics = RobotTopics(None, found, ('arm',))
     by_name = {each.name: each for each in opened}
     by_name['/odom'].message = MOTION
-    by_name['/joint_states'].message = JointValues(['arm'], [0.25], [0.5])
+    by_name['/joint_states'].message = JointValues(0, ['arm'], [0.25], [0.5])
     frame = StateFrame(Layout(1, (), (topics.layout,)))
     topics.write(frame.robots[0], topics.take(0))
     return topics, frame.robots[0]

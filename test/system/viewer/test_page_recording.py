@@ -24,7 +24,7 @@ from amr_description.bag.playback import PlaybackOptions
 from amr_description.bag.reader import BagReader
 from amr_description.bag.recording import BagRecording
 from amr_description.bag.ros.player import Player, PlayerOptions
-from amr_description.ros.cdr import read_odometry
+from amr_description.ros.readers import ODOMETRY
 from amr_description.testing.program import own_domain
 
 AUDIT = (ROOT / 'test' / 'support' / 'page_audit.js').read_text()
@@ -275,7 +275,7 @@ def truths_of(bag):
     times, truths = [], []
     with BagReader(bag) as reader:
         for message in reader.messages(['/ground_truth/odom']):
-            x, y, *_, z, w = read_odometry(message.data)[:7]
+            x, y, *_, z, w = ODOMETRY.read(message.data)[:7]
             times.append(message.log_time)
             truths.append((x, y, 2 * atan2(z, w)))
         return reader.metadata.starting_time, times, truths

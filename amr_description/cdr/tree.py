@@ -11,8 +11,6 @@ they are in JSON. What JSON cannot say, or what is too long, is an object with k
   JavaScript cannot hold: ``{"#number": "18446744073709551615"}``;
 - ``{"#length": 921600, "#first": […]}``: an array of that length, of which these come first;
 - ``{"#length": 48211, "#text": "…"}``: a string of that many bytes, of which this comes first.
-
-This module imports no rclpy.
 """
 
 import math
