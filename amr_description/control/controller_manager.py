@@ -135,7 +135,7 @@ class ControllerManager:
         self.next_tick = 0
         """The instant of the next tick, ns: a multiple of the period, unless one was late."""
         self.periodicity = RunningStatistic()
-        """One over the time between two ticks, Hz."""
+        """One over the time between two ticks, Hz; empty where nothing is measured."""
         self.warns_of_overruns = False
         """Warn of a tick that takes longer than its period, by the stopwatch of the resources."""
         self.on_tick: Callable[[int], None] | None = None
@@ -192,9 +192,8 @@ class ControllerManager:
                 f"Controller '{name}' cannot be a fallback controller for itself."
             )
         divisor = update_divisor(controller, self.update_rate, self._log)
-        stopwatch = self.resources.stopwatch
         self._controllers.add(
-            LoadedController(controller, type_name, divisor, fallbacks, on_transition, stopwatch)
+            LoadedController(controller, type_name, divisor, fallbacks, on_transition)
         )
         self.refresh()
 
@@ -374,53 +373,54 @@ class ControllerManager:
         self.next_tick = time - time % self.period + self.period
         last, self._last_tick = self._last_tick, time
         period = self.period if last is None else time - last
-        if self.warns_of_overruns:
-            self._tick_in_time(time, period)
-        else:
-            self._read(time, period)
-            self._update(time, period)
-            self._write(time, period)
-        if last is not None and period > 0:
+        resources, is_timed = self.resources, self.warns_of_overruns
+        stopwatch = resources.stopwatch
+        begin = stopwatch() if is_timed else 0
+        if lost := resources.read(time, period):
+            self._deactivate_orphans(lost, time)
+        after_read = stopwatch() if is_timed else 0
+        self._update(time, period)
+        after_update = stopwatch() if is_timed else 0
+        if lost := resources.write(time, period):
+            self._lose(lost, time)
+        if is_timed:
+            self._warn_of_overrun(
+                after_read - begin, after_update - after_read, stopwatch() - after_update
+            )
+        if resources.is_measured and last is not None and period > 0:
             self.periodicity.add(NANOSECONDS / period)
         if self.on_tick is not None:
             self.on_tick(time)
 
-    def _tick_in_time(self, time: int, period: int) -> None:
-        """Read, update, write, and warn if that takes longer than a period."""
-        stopwatch = self.resources.stopwatch
-        begin = stopwatch()
-        self._read(time, period)
-        after_read = stopwatch()
-        self._update(time, period)
-        after_update = stopwatch()
-        self._write(time, period)
-        end = stopwatch()
-        if end - begin > self.period:
-            update = after_update - after_read
-            self._warn_of_overrun(after_read - begin, update, end - after_update)
-
-    def _read(self, time: int, period: int) -> None:
-        if lost := self.resources.read(time, period):
-            self._deactivate_orphans(lost, time)
-
     def _update(self, time: int, period: int) -> None:
         failed: list[LoadedController] = []
-        for controller in self._controllers.ordered:
-            if controller.state is _ACTIVE:
-                try:
-                    controller.update(time, self.period)
-                except Exception as error:  # a third-party controller may raise anything
-                    self._failures.log_failure('updating', controller, error)
-                    failed.append(controller)
+        resources = self.resources
+        stopwatch, is_measured = resources.stopwatch, resources.is_measured
+        before = stopwatch() if is_measured else 0
+        for loaded in self._controllers.ordered:
+            divisor = loaded.update_divisor
+            if loaded.state is not _ACTIVE or (divisor != 1 and not loaded.is_due()):
+                continue
+            last, loaded.last_update = loaded.last_update, time
+            elapsed = self.period * divisor if last is None else time - last
+            try:
+                loaded.controller.update(time, elapsed)
+            except Exception as error:  # a third-party controller may raise anything
+                self._failures.log_failure('updating', loaded, error)
+                failed.append(loaded)
+                before = stopwatch()
+                continue
+            if is_measured:
+                after = stopwatch()
+                loaded.statistic.add(after - before, None if last is None else elapsed)
+                before = after
         if failed:
             self._failures.switch_to_fallbacks(failed, 'update', time)
             self.refresh()
-        self.resources.enforce_limits(period)
+        resources.enforce_limits(period)
 
-    def _write(self, time: int, period: int) -> None:
-        lost = self.resources.write(time, period)
-        if not lost:
-            return
+    def _lose(self, lost: Sequence[str], time: int) -> None:
+        """Deactivate the controllers of components that :meth:`ResourceManager.write` has lost."""
         if self.defaults.deactivate_controllers_on_hardware_self_deactivate:
             self._deactivate_orphans(lost, time)
         else:
@@ -436,7 +436,9 @@ class ControllerManager:
             self.refresh()
 
     def _warn_of_overrun(self, read: int, update: int, write: int) -> None:
-        """Log the durations of the parts of a cycle, ns."""
+        """Warn of a tick that took longer than a period, with the durations of its parts, ns."""
+        if read + update + write <= self.period:
+            return
         total = (read + update + write) / _MICROSECOND
         self._log(
             Severity.WARN,

@@ -8,12 +8,7 @@ from typing import TypeVar
 from amr_description.clock import NANOSECONDS
 from amr_description.control.contracts import HardwareComponent
 from amr_description.control.interfaces import Handle, LifecycleState
-from amr_description.control.statistics import (
-    RunningCycleStatistic,
-    Stopwatch,
-    unmeasured,
-    zero_clock,
-)
+from amr_description.control.statistics import RunningCycleStatistic
 from amr_description.errors import HardwareError
 from amr_description.log import Log, Severity
 from amr_description.model.hardware_info import HardwareType
@@ -42,16 +37,13 @@ _TRANSITIONS = {
 class LoadedComponent:
     """A component with its lifecycle, which only the resource manager changes."""
 
-    def __init__(
-        self, component: HardwareComponent, log: Log, stopwatch: Stopwatch = zero_clock
-    ) -> None:
+    def __init__(self, component: HardwareComponent, log: Log) -> None:
         """
         Take a component.
 
         Args:
             component: unconfigured.
             log: for its transitions and failures.
-            stopwatch: measures how long reading and writing it takes.
 
         Raises:
             HardwareError: it exports a name twice, or is a sensor with command interfaces.
@@ -73,9 +65,8 @@ class LoadedComponent:
         """Of its reads since it was activated."""
         self.write_statistic = RunningCycleStatistic()
         """Likewise of its writes."""
-        self._rate = self.info.rw_rate
-        self._stopwatch = stopwatch
-        self._is_measured = stopwatch is not unmeasured
+        self.rate = self.info.rw_rate
+        """Hz, of its own; 0: that of the manager."""
         self._log = log
         self.last_read: int | None = None
         """When it was read, ns; None: not since a transition, or a jump of the clock."""
@@ -149,57 +140,19 @@ class LoadedComponent:
 
     # --- input and output ---------------------------------------------------------------------
 
-    def read(self, time: int, period: int) -> None:
-        """
-        Read it if it is available and due.
-
-        Args:
-            time: of the manager's tick, ns.
-            period: since the previous tick, ns.
-
-        Raises:
-            Exception: whatever the component raises.
-        """
-        if self.state is not _ACTIVE and self.state is not _INACTIVE:
-            return
-        last = self.last_read
-        if self._rate:
-            elapsed = self._elapsed(last, time, period)
-            if elapsed is None:
-                return
-            period = elapsed
-        self.last_read = time
-        begin = self._stopwatch()
-        self.component.read(time, period)
-        if self._is_measured:
-            passed = None if last is None else time - last
-            self.read_statistic.add(self._stopwatch() - begin, passed)
-
-    def write(self, time: int, period: int) -> None:
-        """Write it if it is active, not a sensor, and due; arguments as of :meth:`read`."""
-        if self.state is not _ACTIVE or self.is_sensor:
-            return
-        last = self.last_write
-        if self._rate:
-            elapsed = self._elapsed(last, time, period)
-            if elapsed is None:
-                return
-            period = elapsed
-        self.last_write = time
-        begin = self._stopwatch()
-        self.component.write(time, period)
-        if self._is_measured:
-            passed = None if last is None else time - last
-            self.write_statistic.add(self._stopwatch() - begin, passed)
-
-    def _elapsed(self, last: int | None, time: int, period: int) -> int | None:
+    def elapsed(self, last: int | None, time: int, period: int) -> int | None:
         """
         Return the period to hand to a component with a rate of its own, ns; None: it is not due.
 
         That is the true time since the previous call, and the nominal period at the first. It is
         due from 99 % of its period on, as a tick may come early.
+
+        Args:
+            last: when it was called, ns; None: not yet.
+            time: of the manager's tick, ns.
+            period: since the previous tick, ns.
         """
-        rate = self._rate
+        rate = self.rate
         if last is None:
             return max(period, NANOSECONDS // rate)
         elapsed = time - last

@@ -17,12 +17,7 @@ from amr_description.control.interfaces import (
     StateInterface,
 )
 from amr_description.control.resource_manager import ResourceManager
-from amr_description.control.statistics import (
-    RunningCycleStatistic,
-    Stopwatch,
-    unmeasured,
-    zero_clock,
-)
+from amr_description.control.statistics import RunningCycleStatistic
 from amr_description.errors import ControllerError
 
 TransitionCallback: TypeAlias = Callable[
@@ -45,7 +40,6 @@ class LoadedController:
         update_divisor: int,
         fallbacks: Iterable[str] = (),
         on_transition: TransitionCallback = ignore_transition,
-        stopwatch: Stopwatch = zero_clock,
     ) -> None:
         """
         Take a controller.
@@ -56,11 +50,8 @@ class LoadedController:
             update_divisor: ticks of the manager for each of its updates.
             fallbacks: names of the controllers to start if it fails.
             on_transition: called for every transition.
-            stopwatch: measures its updates.
         """
         self._on_transition = on_transition
-        self._stopwatch = stopwatch
-        self._is_measured = stopwatch is not unmeasured
         self.statistic = RunningCycleStatistic()
         """Of its updates since it was activated."""
         self.fallbacks = tuple(fallbacks)
@@ -202,24 +193,10 @@ class LoadedController:
         resources.add_exported(self.name, self.references, self.exported_states)
         self.state = LifecycleState.ACTIVE
 
-    def update(self, time: int, nominal_period: int) -> None:
-        """
-        Update it if it is due at this tick, and measure how long that takes.
-
-        Args:
-            time: of the tick, ns.
-            nominal_period: of the manager, ns.
-        """
-        ticks, divisor = self._ticks, self.update_divisor
-        self._ticks = ticks + 1
-        if divisor != 1 and ticks % divisor:
-            return
-        last, self.last_update = self.last_update, time
-        period = nominal_period * divisor if last is None else time - last
-        begin = self._stopwatch()
-        self.controller.update(time, period)
-        if self._is_measured:
-            self.statistic.add(self._stopwatch() - begin, None if last is None else period)
+    def is_due(self) -> bool:
+        """Return whether it is updated at this tick: at every nth, for ``update_divisor``."""
+        ticks, self._ticks = self._ticks, self._ticks + 1
+        return ticks % self.update_divisor == 0
 
     def deactivate(self, resources: ResourceManager, time: int) -> None:
         """Active → inactive, even if its ``deactivate`` raises; ``time`` in ns."""

@@ -32,7 +32,7 @@ from amr_description.control.joint_limits import (
     value_at_rest,
 )
 from amr_description.control.loaded_component import by_name, LoadedComponent
-from amr_description.control.statistics import Stopwatch, zero_clock
+from amr_description.control.statistics import Stopwatch, unmeasured, zero_clock
 from amr_description.errors import (
     HardwareDeactivationError,
     HardwareError,
@@ -45,6 +45,9 @@ from amr_description.plugin_errors import describe
 if TYPE_CHECKING:
     from amr_description.model.hardware_info import HardwareInfo
     from amr_description.model.robot import Robot
+
+
+_INACTIVE, _ACTIVE = LifecycleState.INACTIVE, LifecycleState.ACTIVE  # looked up in each cycle
 
 
 class ResourceManager:
@@ -68,6 +71,8 @@ class ResourceManager:
         """
         self.log = log
         self.stopwatch = stopwatch
+        self.is_measured = stopwatch is not unmeasured
+        """Whether statistics are kept."""
         self.components: dict[str, LoadedComponent] = {}
         self._ordered: tuple[LoadedComponent, ...] = ()
         """The same, as each cycle runs through them."""
@@ -114,7 +119,7 @@ class ResourceManager:
 
     def add(self, component: HardwareComponent) -> None:
         """Add a component. Raises HardwareError: one of its names is taken, or invalid."""
-        loaded = LoadedComponent(component, self.log, self.stopwatch)
+        loaded = LoadedComponent(component, self.log)
         name = loaded.info.name
         if name in self.components:
             raise HardwareError(f"Hardware component '{name}' is there twice")
@@ -374,11 +379,26 @@ class ResourceManager:
             The names of those that failed and were brought down, along with their groups.
         """
         lost: list[str] = []
+        stopwatch, is_measured = self.stopwatch, self.is_measured
+        before = stopwatch() if is_measured else 0
         for loaded in self._ordered:
+            if loaded.state is not _ACTIVE and loaded.state is not _INACTIVE:
+                continue
+            last = loaded.last_read
+            elapsed = loaded.elapsed(last, time, period) if loaded.rate else period
+            if elapsed is None:
+                continue
+            loaded.last_read = time
             try:
-                loaded.read(time, period)
+                loaded.component.read(time, elapsed)
             except Exception as error:  # a third-party component may raise anything
                 lost += self._handle_failure(loaded, 'read', error)
+                before = stopwatch()
+                continue
+            if is_measured:
+                after = stopwatch()
+                loaded.read_statistic.add(after - before, None if last is None else time - last)
+                before = after
         return lost
 
     def write(self, time: int, period: int) -> list[str]:
@@ -389,11 +409,26 @@ class ResourceManager:
         or inactive if they asked for that.
         """
         lost: list[str] = []
+        stopwatch, is_measured = self.stopwatch, self.is_measured
+        before = stopwatch() if is_measured else 0
         for loaded in self._ordered:
+            if loaded.state is not _ACTIVE or loaded.is_sensor:
+                continue
+            last = loaded.last_write
+            elapsed = loaded.elapsed(last, time, period) if loaded.rate else period
+            if elapsed is None:
+                continue
+            loaded.last_write = time
             try:
-                loaded.write(time, period)
+                loaded.component.write(time, elapsed)
             except Exception as error:
                 lost += self._handle_failure(loaded, 'write', error)
+                before = stopwatch()
+                continue
+            if is_measured:
+                after = stopwatch()
+                loaded.write_statistic.add(after - before, None if last is None else time - last)
+                before = after
         return lost
 
     def _handle_failure(self, failed: LoadedComponent, action: str, error: Exception) -> list[str]:
@@ -425,7 +460,7 @@ class ResourceManager:
         gets one.
         """
         for ranges in self._ranges:
-            if ranges.loaded.is_available and not ranges.hold():
+            if not ranges.hold() and ranges.loaded.is_available:
                 self._limit(ranges.loaded, period)
 
     def _limit(self, loaded: LoadedComponent, period: int) -> None:
