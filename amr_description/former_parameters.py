@@ -30,7 +30,7 @@ _NAMED = 6
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class FormerValue:
     """What is made of a parameter."""
 
     text: str
@@ -49,7 +49,7 @@ class FormerParameter:
 
     name: str
     """Perhaps with wildcards, for what stands below."""
-    read: Callable[[Any, Mapping[str, Any]], Reading | None]
+    read: Callable[[Any, Mapping[str, Any]], FormerValue | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,25 +84,25 @@ class Understanding:
 def ignored(name: str, origin: str, instead: str) -> FormerParameter:
     """Return one that has no effect: ``origin`` had it, ``instead`` is what does."""
     text = f'it is of {origin}, and has no effect: {instead}'
-    return FormerParameter(name, lambda value, given: Reading(text, {}))
+    return FormerParameter(name, lambda value, given: FormerValue(text, {}))
 
 
 def replaced(name: str, origin: str, *new: str) -> FormerParameter:
     """Return one whose value is taken for others, where these are not given."""
 
-    def read(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    def read(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
         values = {each: value for each in new if each not in given}
         text = f'it is of {origin}: taken as {" and ".join(new)}'
-        return Reading(text, values) if values else None
+        return FormerValue(text, values) if values else None
 
     return FormerParameter(name, read)
 
 
-def _clamp(value: Any, given: Mapping[str, Any]) -> Reading | None:
+def _clamp(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if not isinstance(value, float | int) or 'i_clamp_max' in given or 'i_clamp_min' in given:
         return None
     limit = abs(float(value))
-    return Reading(
+    return FormerValue(
         f'it is of earlier releases: taken as i_clamp_max {limit} and i_clamp_min {-limit}',
         {'i_clamp_max': limit, 'i_clamp_min': -limit},
     )

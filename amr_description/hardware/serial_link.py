@@ -36,9 +36,9 @@ from amr_description.hardware.serial_protocol import (
     LineReader,
     LONGEST_WATCHDOG,
     Message,
-    Question,
     Reason,
     Refused,
+    Request,
     Set,
     SHORTEST_WATCHDOG,
     State,
@@ -53,7 +53,7 @@ READ_TIMEOUT = 0.02
 """s: the longest wait for a byte."""
 
 _RETRY = 0.1
-"""s, about: after this time a question is repeated."""
+"""s, about: after this time a request is repeated."""
 
 _MOST_UNANSWERED = 2
 """``GET`` and ``SET`` without an answer yet; two hide the latency of a USB adapter."""
@@ -196,9 +196,9 @@ class SerialBoard:
             self.close()
             raise
 
-    def post(self, kind: type[Question], *values: float) -> int:
+    def post(self, kind: type[Request], *values: float) -> int:
         """
-        Send a question without waiting, and return its number.
+        Send a request without waiting, and return its number.
 
         Args:
             kind: type of the message.
@@ -224,9 +224,9 @@ class SerialBoard:
         """True: the link has ended by itself."""
         return bool(self._link.status.fault)
 
-    def ask(self, kind: type[Question], *values: int) -> State:
+    def ask(self, kind: type[Request], *values: int) -> State:
         """
-        Send a question, repeat it if the answer is lost, and block until the state arrives.
+        Send a request, repeat it if the answer is lost, and block until the state arrives.
 
         Arguments as of :meth:`post`. Raises HardwareError: no answer within ``answer_timeout``.
         """
@@ -264,10 +264,10 @@ class SerialBoard:
         self,
         answer_of: Callable[[LinkStatus], Board | State | None],
         timeout: float,
-        kind: type[Question],
+        kind: type[Request],
         *values: int,
     ) -> LinkStatus | None:
-        """Repeat a question until it is answered; return None after the timeout."""
+        """Repeat a request until it is answered; return None after the timeout."""
         tries = max(1, round(timeout / _RETRY))
         for _ in range(tries):
             number = self.post(kind, *values)
@@ -325,7 +325,7 @@ class SerialLink:
         self.status = LinkStatus()
         self._answer_timeout = answer_timeout
         self._asked_at: float | None = None
-        self._commands: deque[Question] = deque()
+        self._commands: deque[Request] = deque()
         self._cyclic: deque[Get | Set] = deque(maxlen=1)  # the latest only
         self._sent: deque[int] = deque(maxlen=_MOST_UNANSWERED)  # numbers of _cyclic
         self._sent_at = 0.0
@@ -338,21 +338,21 @@ class SerialLink:
         self._thread = threading.Thread(target=self._run, name=f'serial {port}', daemon=True)
         self._thread.start()
 
-    def post(self, question: Question) -> None:
+    def post(self, request: Request) -> None:
         """
-        Send a question: ``GET`` and ``SET`` as soon as the line is free, only the latest one.
+        Send a request: ``GET`` and ``SET`` as soon as the line is free, only the latest one.
 
         It is dropped if the link has ended. Must always be called on the same thread.
         """
         if self.status.fault:
             return
-        if isinstance(question, Get | Set):
+        if isinstance(request, Get | Set):
             has_to_wake = not self._cyclic
-            self._cyclic.append(question)
+            self._cyclic.append(request)
         else:
             has_to_wake = True
             self._cyclic.clear()  # a SET from before an ARM must not move anything after it
-            self._commands.append(question)
+            self._commands.append(request)
         if has_to_wake:
             self._serial.cancel_read()
 
@@ -405,16 +405,16 @@ class SerialLink:
         if not self._is_free():
             return
         try:
-            question = self._cyclic.popleft()
+            request = self._cyclic.popleft()
         except IndexError:
             return
-        self._write(question)
-        self._sent.append(question.number)
+        self._write(request)
+        self._sent.append(request.number)
         self._sent_at = time.monotonic()
 
-    def _write(self, question: Question) -> None:
-        self._serial.write(encode(question))
-        if self._asked_at is None and not isinstance(question, Hello):
+    def _write(self, request: Request) -> None:
+        self._serial.write(encode(request))
+        if self._asked_at is None and not isinstance(request, Hello):
             self._asked_at = time.monotonic()
 
     def _is_free(self) -> bool:

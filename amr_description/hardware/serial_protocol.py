@@ -39,7 +39,7 @@ from the board                            meaning
 ========================================  =========================================================
 
 The board only answers. Every valid line has exactly one answer, with the ``number`` of its
-question, so that no old answer is taken for a new one. A state is as old as its question: a host
+request, so that no old answer is taken for a new one. A state is as old as its request: a host
 that asks periodically gets periodic samples.
 
 **The watchdog.** If the board is ARMED and receives no valid ``SET`` for ``watchdog`` ms, it
@@ -166,9 +166,9 @@ class Error:
     reason: Reason
 
 
-Question: TypeAlias = Hello | Get | Arm | Set | Disarm
+Request: TypeAlias = Hello | Get | Arm | Set | Disarm
 Answer: TypeAlias = Board | State | Error
-Message: TypeAlias = Question | Answer
+Message: TypeAlias = Request | Answer
 
 
 @dataclass(frozen=True, slots=True)

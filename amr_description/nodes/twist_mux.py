@@ -120,10 +120,10 @@ class TwistMuxNode(PollingNode):
             ) from None
 
     def _subscribe_to_lock(self, lock: Channel) -> None:
-        def hear(message: Bool) -> None:
+        def receive(message: Bool) -> None:
             self._mux.hear_lock(lock.name, message.data, self._now())
 
-        self.create_subscription(Bool, lock.topic, hear, QoSPresetProfiles.SYSTEM_DEFAULT.value)
+        self.create_subscription(Bool, lock.topic, receive, QoSPresetProfiles.SYSTEM_DEFAULT.value)
 
     def _announce(self, channel: Channel) -> None:
         timeout = f'{channel.timeout / 1e9:f}s' if channel.timeout else 'None'

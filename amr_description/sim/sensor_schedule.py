@@ -3,7 +3,7 @@
 """
 When a simulated sensor measures, and the random numbers of its noise.
 
-Both follow from simulated time alone: a sensor that was not heard for a while, and a second run,
+Both follow from simulated time alone: a sensor without subscribers for a while, and a second run,
 measure at the same instants, and with the same noise; a reset begins both anew.
 """
 

@@ -354,7 +354,7 @@ class Simulation(SimulationApi[Robot]):
         if not taken:
             raise SimulationError(
                 f"no controller takes what is sent on '{topic}'; "
-                f'{"; ".join(reasons) or "is the one that hears it active?"}'
+                f'{"; ".join(reasons) or "is its controller active?"}'
             )
 
     # --- pictures ------------------------------------------------------------------------------

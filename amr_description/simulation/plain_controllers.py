@@ -66,7 +66,7 @@ class Newest(PlainTopic):
 
     def _choose_sink(self) -> None:
         keep = self._samples.append  # a call into C, in each cycle
-        if not (self.is_heard or self.is_latched):
+        if not (self.has_subscribers or self.is_latched):
             self._output.sink = keep
             return
 

@@ -3,8 +3,8 @@
 """
 What a simulation in this process publishes beside its controllers, and the recording of all of it.
 
-Sensors, ground truth and the rest are made when the first recording begins: nobody hears them
-before. Then each message is that which the simulator over ROS records at the same time.
+Sensors, ground truth and the rest are made when the first recording begins: before they have no
+subscribers. Then each message is that which the simulator over ROS records at the same time.
 """
 
 from collections.abc import Sequence

@@ -60,7 +60,7 @@ class PlainTopic:
             publisher: Of the loop.
         """
         self.metadata = metadata
-        self.is_heard = False
+        self.has_subscribers = False
         """Whether somebody records."""
         (profile,) = metadata.offered_qos_profiles
         self.is_latched = profile.durability == 'transient_local'
@@ -74,7 +74,7 @@ class PlainTopic:
         """Publish a sample at the end of this cycle."""
         if self.is_latched:
             self._latest[:] = (sample,)
-        if self.is_heard:
+        if self.has_subscribers:
             self._publisher.outbox.append((self, sample))
 
     def write_aside(self, sample: Any) -> None:
@@ -102,7 +102,7 @@ class PlainTopic:
                 self._publisher.log(Severity.WARN, f"'{name}' is not recorded: {reason}")
             else:
                 self._sink = recorder.sink_of_samples(self.metadata)
-        self.is_heard = self._sink is not None
+        self.has_subscribers = self._sink is not None
         for sample in self._latest:
             self.write_aside(sample)
 

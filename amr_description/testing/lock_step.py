@@ -140,7 +140,7 @@ class LockStep:
             raise SimulationError(result.reason)
 
     def measure(self) -> list[str]:
-        """Have all sensors that are heard measure now; return the topics that are heard."""
+        """Have all sensors with subscribers measure now; return their topics."""
         response = self._call(Trigger, 'measure', Trigger.Request())
         if not response.success:
             raise SimulationError(f'measure: {response.message}')
@@ -178,7 +178,7 @@ class LockStep:
             as_they_are: Whether a header without a stamp stays so.
 
         Raises:
-            SimulationError: No controller accepts a message, or a second robot hears it.
+            SimulationError: No controller accepts a message, or a second robot subscribes to it.
         """
         waiting = {self.node.resolve_topic_name(topic): each for topic, each in messages.items()}
         waiting = {
@@ -208,7 +208,7 @@ class LockStep:
             delay *= 2
         topics = ', '.join(f"'{topic}'" for topic in waiting)
         raise SimulationError(
-            f'no controller takes what is sent on {topics}; is the one that hears it active?'
+            f'no controller takes what is sent on {topics}; is its controller active?'
         )
 
     def _message(self, topic: str, fields: Mapping[str, Any]) -> Any:

@@ -125,17 +125,17 @@ class Robot:
     def wait(self, condition):
         wait_until(self.collector.node, lambda: condition() or None, of_message=True)
 
-    def say(self, publisher, topic, message, *, is_heard=True):
+    def say(self, publisher, topic, message, *, has_subscribers=True):
         """Publish, and wait until the collector has heard it."""
         name = publisher.topic_name
         (heard,) = (s for s in self.collector.node.subscriptions if s.topic_name == name)
         count = self.node.count_publishers(name)
         # Either side finds the other by itself, one perhaps later.
-        self.wait(lambda: publisher.get_subscription_count() or not is_heard)
-        self.wait(lambda: heard.get_publisher_count() >= count or not is_heard)
+        self.wait(lambda: publisher.get_subscription_count() or not has_subscribers)
+        self.wait(lambda: heard.get_publisher_count() >= count or not has_subscribers)
         before = self.collector.counts[topic]
         publisher.publish(message)
-        self.wait(lambda: self.collector.counts[topic] != before or not is_heard)
+        self.wait(lambda: self.collector.counts[topic] != before or not has_subscribers)
 
     def run(self, seconds=0.7, each_cycle=lambda robot: None):
         """Publish what is due in a span of simulated time."""
@@ -149,7 +149,7 @@ class Robot:
                 self.say(self.tf, '/tf', transforms(stamp, ('odom', 'base_footprint')))
             if at % plan.odom_period == 0:
                 hears = plan.odom_type is Odometry and plan.odom_is_reliable
-                self.say(self.odom, 'odom', self.odometry(), is_heard=hears)
+                self.say(self.odom, 'odom', self.odometry(), has_subscribers=hears)
             each_cycle(self)
             if at % plan.scan_period == 0:
                 self.say(self.scan, 'scan', self.laser_scan())

@@ -36,7 +36,7 @@ FEW_LINES = 80
 # their topics, and patience with a simulator that works.
 BUDGETS = {
     'modules': 818,
-    'code lines': 93_426,
+    'code lines': 93_429,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

@@ -20,7 +20,7 @@ simulator publishes on
 
 Once that has come, the next step acts on the command. Nothing is published without a subscriber.
 
-Of what nobody hears no message is made, which is most of the cost of a sample: 15 µs of 20. To
+Without subscribers no message is made, which is most of the cost of a sample: 15 µs of 20. To
 look whether somebody subscribes costs 1.5 µs a topic, so that is done once in :data:`LOOK_PERIOD`
 of the wall clock (with many topics less often), and in each cycle before and after which time
 stands still. A topic that keeps its last message for who subscribes later
@@ -88,7 +88,7 @@ class LoopTopic:
     """A topic on which samples go out at the end of a cycle; :meth:`LoopPublisher.topic`."""
 
     __slots__ = (
-        'publisher', 'is_heard', 'keeps_last', 'newest', 'sink', '_is_latched', '_latest',
+        'publisher', 'has_subscribers', 'keeps_last', 'newest', 'sink', '_is_latched', '_latest',
         '_keeps_many', '_encode', '_publish_bytes', '_publish_without_lock', '_outbox',
     )  # fmt: skip
 
@@ -97,14 +97,14 @@ class LoopTopic:
     ) -> None:
         self.publisher = publisher
         self._keeps_many = _keeps_many(publisher.qos_profile)
-        self.is_heard = self._keeps_many
+        self.has_subscribers = self._keeps_many
         """Whether somebody subscribed at the last look, or may later get each of the samples."""
         self.keeps_last = publisher.qos_profile.durability is not DurabilityPolicy.VOLATILE
         """Whether who subscribes later gets the last message."""
         self.newest: Any = _NOTHING
         """The sample that has still to be kept for those."""
         self.sink: Sink | None = None
-        """Records what is published, if anybody does; such a topic is always heard."""
+        """Records what is published, if anybody does; such a topic counts as subscribed."""
         self._is_latched = _is_latched(publisher)
         self._latest: Any = _NOTHING
         self._encode, self._publish_bytes = encode, bytes_publisher(publisher)
@@ -137,7 +137,7 @@ class LoopTopic:
         """
         Publish a big sample now, while other threads go on: the control thread, above all.
 
-        Its encoder makes bytes. Where the topic is gone, nobody hears it any more.
+        Its encoder makes bytes. Where the topic is gone, it has no subscribers any more.
         """
         made = self._encode(sample)
         sink = self.sink  # which the control thread may take away
@@ -146,17 +146,17 @@ class LoopTopic:
         try:
             self._publish_without_lock(made)
         except InvalidHandle:  # its robot has been removed meanwhile
-            self.is_heard = False
+            self.has_subscribers = False
 
     def look(self) -> None:
         """Look whether somebody subscribes, 0.9 µs. Raises InvalidHandle: the topic is gone."""
-        is_heard = self.publisher.get_subscription_count() > 0
-        self.is_heard = is_heard or self._keeps_many or self.sink is not None
+        has_subscribers = self.publisher.get_subscription_count() > 0
+        self.has_subscribers = has_subscribers or self._keeps_many or self.sink is not None
 
     def attach(self, recorder: MessageRecorder | None) -> None:
         """Record from now on, what is latched first; None: no more, as the next look finds."""
         sink = self.sink = None if recorder is None else recorder.samples_of(self.publisher)
-        self.is_heard = self.is_heard or sink is not None
+        self.has_subscribers = self.has_subscribers or sink is not None
         if sink is not None and self._latest is not _NOTHING:
             made = self._encode(self._latest)
             sink(made if isinstance(made, bytes) else serialize(made))
@@ -254,7 +254,7 @@ class LoopPublisher:
 
         Args:
             publisher: Of the topic.
-            encode: Called for each sample that somebody hears.
+            encode: Called for each sample that has subscribers.
             is_recorded: Whether it is recorded; not so what depends on the wall clock.
         """
         topic = LoopTopic(publisher, encode, self._outbox)
@@ -328,7 +328,7 @@ class LoopPublisher:
         for report in self.reporters:
             report(time)
         for topic, sample in self._outbox:
-            if topic.is_heard:
+            if topic.has_subscribers:
                 self._write(topic, sample)
             elif topic.keeps_last:
                 topic.newest = sample
@@ -366,10 +366,10 @@ class LoopPublisher:
             try:
                 topic.look()
             except InvalidHandle:  # a cleanup has removed it
-                topic.is_heard = topic.keeps_last = False
+                topic.has_subscribers = topic.keeps_last = False
                 gone.append(topic)
                 continue
-            if topic.is_heard and topic.newest is not _NOTHING:
+            if topic.has_subscribers and topic.newest is not _NOTHING:
                 self._outbox.insert(0, (topic, topic.newest))
                 topic.newest = _NOTHING
         if gone:
@@ -381,7 +381,7 @@ class LoopPublisher:
         try:
             topic.write(sample)
         except InvalidHandle:  # a cleanup has removed the topic since
-            topic.is_heard = topic.keeps_last = False
+            topic.has_subscribers = topic.keeps_last = False
         except Exception as error:  # a third party's converter; the robot must go on
             self._logger.error(
                 f"Could not publish on '{topic.publisher.topic_name}': {describe(error)}",

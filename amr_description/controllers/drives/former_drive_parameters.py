@@ -10,12 +10,12 @@ from collections.abc import Mapping
 import math
 from typing import Any
 
-from amr_description.former_parameters import FormerParameter, ignored, Reading, replaced
+from amr_description.former_parameters import FormerParameter, FormerValue, ignored, replaced
 
 
-def _stamped(value: Any, given: Mapping[str, Any]) -> Reading | None:
+def _stamped(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if value is False and 'enable_cmd_vel_unstamped' not in given:
-        return Reading(
+        return FormerValue(
             'it is of Humble: plain Twist is taken on ~/cmd_vel_unstamped, besides TwistStamped '
             'on ~/cmd_vel; Jazzy takes TwistStamped only',
             {'enable_cmd_vel_unstamped': True},
@@ -23,22 +23,24 @@ def _stamped(value: Any, given: Mapping[str, Any]) -> Reading | None:
     return None
 
 
-def _stamped_only(value: Any, given: Mapping[str, Any]) -> Reading | None:
+def _stamped_only(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if value is False:
-        return Reading('it is of Humble, and has no effect: TwistStamped is all that is taken', {})
+        return FormerValue(
+            'it is of Humble, and has no effect: TwistStamped is all that is taken', {}
+        )
     return None
 
 
-def _tilde(value: Any, given: Mapping[str, Any]) -> Reading | None:
+def _tilde(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if value == '~':
-        return Reading(
+        return FormerValue(
             'it is of releases after Jazzy: the namespace of the node, as an empty one is here',
             {'tf_frame_prefix': ''},
         )
     return None
 
 
-def _lowest_acceleration(value: Any, given: Mapping[str, Any]) -> Reading | None:
+def _lowest_acceleration(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     """
     Read Humble's bounds of Δv/Δt, [min_acceleration, max_acceleration], whichever way it drives.
 
@@ -50,15 +52,15 @@ def _lowest_acceleration(value: Any, given: Mapping[str, Any]) -> Reading | None
         return None
     if any(name in given for name in names) or given.get('has_acceleration_limits') is False:
         return None
-    return Reading(
+    return FormerValue(
         f'it is of Humble: taken as {" and ".join(names)}', dict.fromkeys(names, float(value))
     )
 
 
-def _jerk(value: Any, given: Mapping[str, Any]) -> Reading | None:
+def _jerk(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if not _is_number(value) or value != 0.0 or given.get('has_jerk_limits') is False:
         return None
-    return Reading(
+    return FormerValue(
         'with it the robot would never move: taken as no limit, .nan',
         {'max_jerk': math.nan, 'min_jerk': math.nan},
     )
@@ -74,13 +76,13 @@ _SUM = 'kinematics.sum_of_robot_center_projection_on_X_Y_axis'
 def _renamed(name: str, new: str) -> FormerParameter:
     """Return a parameter of another mecanum drive that has one of another name here."""
 
-    def read(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    def read(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
         if new in given:
             return None
         values = {new: value}
         if new == 'front_left_wheel_command_joint_name' and 'reference_timeout' not in given:
             values['reference_timeout'] = given.get('cmd_vel_timeout', _FORKS_TIMEOUT)
-        return Reading(f'it is of {_FORKS}: taken as {" and ".join(values)}', values)
+        return FormerValue(f'it is of {_FORKS}: taken as {" and ".join(values)}', values)
 
     return FormerParameter(name, read)
 
@@ -88,11 +90,11 @@ def _renamed(name: str, new: str) -> FormerParameter:
 def _halves(name: str, other: str) -> FormerParameter:
     """Return the first of two distances between wheels, of another mecanum drive."""
 
-    def read(value: Any, given: Mapping[str, Any]) -> Reading | None:
+    def read(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
         beside = given.get(other)
         if _SUM in given or not (_is_number(value) and _is_number(beside)):
             return None
-        return Reading(
+        return FormerValue(
             f'it is of {_FORKS}: half of it and of {other} is taken as {_SUM}',
             {_SUM: 0.5 * (value + beside)},
         )

@@ -54,7 +54,7 @@ class StampSeen:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Clock:
-    """What was heard of time."""
+    """What was received of time."""
 
     publishers: tuple[str, ...] = ()
     """Each once for each publisher of ``/clock``."""
@@ -75,7 +75,7 @@ class Clock:
         """
         The measured real-time factor.
 
-        None: too little was heard, or time stood or went back meanwhile.
+        None: too little was received, or time stood or went back meanwhile.
         """
         times = [tick.time for tick in self.ticks]
         if len(times) < _FEWEST_TICKS or any(later <= time for time, later in pairwise(times)):

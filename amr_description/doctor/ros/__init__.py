@@ -6,8 +6,8 @@ Asks and listens to the ROS graph, by a probe for each section of what is observ
 ===================  =============================================================================
 ``collector.py``     all sections within one window of time
 ``shared.py``        ``/clock`` and parameters, which several of them need
-``heard.py``         messages with their publishers, taken without callbacks
-``questions.py``     services that change nothing, and parameters
+``topic_probe.py``       messages with their publishers, taken without callbacks
+``queries.py``       services that change nothing, and parameters
 ``graph.py``         nodes, their processes and answers; topics
 ``clock.py``         ``/clock``, the real-time factor, stamps
 ``commands.py``      velocity commands, drives, locks

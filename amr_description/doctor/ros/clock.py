@@ -12,9 +12,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations.clock import Clock, StampSeen, TimeSource
-from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import ParameterQuestion
+from amr_description.doctor.ros.queries import ParameterQuery
 from amr_description.doctor.ros.shared import CLOCK_TOPIC, shared_of
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.doctor.rules.clock import LEAST_FACTOR_SHARE
 from amr_description.errors import AmrError
 from amr_description.ros.endpoints import endpoint_node
@@ -72,21 +72,21 @@ class ClockProbe:
         )
         if self._publishers:
             self._shared.listen()
-        self._heard: dict[str, HeardTopic] = {}
+        self._probes: dict[str, TopicProbe] = {}
         self._offsets: dict[str, int] = {}
         self._stamps: dict[str, dict[tuple[bytes, int], tuple[int, int]]] = {}
         self._listen_to_stamps()
         self._resumes = self._find_sources()
-        self._factors: dict[str, ParameterQuestion] = {
+        self._factors: dict[str, ParameterQuery] = {
             name: self._shared.ask(name, [_FACTOR]) for name, _ in self._resumes
         }
         self._reports: dict[str, str] = {}
-        self._log: HeardTopic | None = None
+        self._log: TopicProbe | None = None
         self._log_began = 0.0
 
     @property
     def is_done(self) -> bool:
-        """Whether enough was heard."""
+        """Whether enough was received."""
         self._take()
         waited = time.monotonic() - self._began
         has_answers = all([each.response is not None for each in self._factors.values()])
@@ -94,13 +94,13 @@ class ClockProbe:
         if not self._publishers:
             return has_stamps
         listened = self._shared.seconds
-        is_heard = listened >= LISTEN if self._shared.ticks else listened >= _SILENCE
-        if not (has_answers and has_stamps and is_heard):
+        is_received = listened >= LISTEN if self._shared.ticks else listened >= _SILENCE
+        if not (has_answers and has_stamps and is_received):
             return False
         return self._has_reports()
 
     def observe(self) -> Clock:
-        """Return what was heard."""
+        """Return what was received."""
         self._take()
         shared = self._shared
         stamps = tuple(
@@ -122,7 +122,7 @@ class ClockProbe:
             sources=tuple(self._source(name, resume) for name, resume in self._resumes),
             stamps=stamps,
         )
-        for each in (*self._heard.values(), self._log):
+        for each in (*self._probes.values(), self._log):
             if each is not None:
                 each.destroy()
         shared.release()
@@ -167,7 +167,7 @@ class ClockProbe:
         if self._shared.seconds < SURE:
             return False
         self._log_began = time.monotonic()
-        self._log = HeardTopic(self._node, Log, '/rosout', depth=1000, qos=_ROSOUT)
+        self._log = TopicProbe(self._node, Log, '/rosout', depth=1000, qos=_ROSOUT)
         return False
 
     def _take_log(self) -> None:
@@ -191,17 +191,17 @@ class ClockProbe:
 
     def _listen_to(self, topic: str, kind: str) -> None:
         try:
-            heard = HeardTopic(self._node, message_type(kind), topic, depth=_DEPTH)
+            probe = TopicProbe(self._node, message_type(kind), topic, depth=_DEPTH)
         except (AmrError, RuntimeError):  # the type is not installed; another one is used here
             return
-        self._heard[topic], self._offsets[topic], self._stamps[topic] = heard, _HEADERS[kind], {}
+        self._probes[topic], self._offsets[topic], self._stamps[topic] = probe, _HEADERS[kind], {}
 
     def _take(self) -> None:
         """Take what has come: of each publisher and minute, the latest stamp."""
-        self._shared.hear()
+        self._shared.receive()
         self._take_log()
-        for topic, heard in self._heard.items():
-            for taken in heard.take_bytes():
+        for topic, probe in self._probes.items():
+            for taken in probe.take_bytes():
                 stamp = stamp_in(taken.data, self._offsets[topic])
                 if stamp is not None:
                     key = taken.gid, stamp // _BUCKET
@@ -209,7 +209,7 @@ class ClockProbe:
 
     def _publishers_of(self, topic: str, gid: bytes) -> tuple[str, ...]:
         """Return the node of a publisher; one that is gone may be any that is there."""
-        found = self._heard[topic].publishers()
+        found = self._probes[topic].publishers()
         return (found[gid],) if found.get(gid) else tuple(dict.fromkeys(found.values()))
 
 

@@ -21,9 +21,9 @@ from amr_description.doctor.observations.commands import (
     StopLock,
 )
 from amr_description.doctor.observations.graph import STAMPED_TWIST, TWIST, VELOCITY_TYPES
-from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
+from amr_description.doctor.ros.queries import GET_PARAMETERS, ParameterQuery
 from amr_description.doctor.ros.shared import CLOCK_TOPIC, shared_of
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import nanoseconds
 
@@ -66,25 +66,26 @@ class CommandProbe:
                 self._add_lock(name)
         if self._is_simulated and any(each.publishers for each in self._topics):
             self._shared.listen()
-        self._questions = self._ask()
+        self._queries = self._ask()
 
     @property
     def is_done(self) -> bool:
-        """Whether enough was heard, or long enough of all who publish."""
+        """Whether enough was received, or long enough of all who publish."""
         self._take()
         waited = time.monotonic() - self._began
-        answers = [q.response for found in self._questions.values() for q in found.values()]
+        answers = [q.response for found in self._queries.values() for q in found.values()]
         # On a busy machine to find each other may take as long as to listen.
         if None in answers or not all(each.is_connected for each in self._topics):
             return False
         if any(each.value is None for each in self._locks) and waited < _LOCK_PATIENCE:
             return False
         return waited >= LISTEN or all(
-            not each.publishers or (each.is_heard and waited >= SHORTEST) for each in self._topics
+            not each.publishers or (each.is_received and waited >= SHORTEST)
+            for each in self._topics
         )
 
     def observe(self) -> ObservedCommands:
-        """Return what was heard."""
+        """Return what was received."""
         self._take()
         topics = tuple(
             ObservedCommandTopic(
@@ -104,9 +105,9 @@ class CommandProbe:
             ),
             seconds=time.monotonic() - self._began,
         )
-        for heard in [*(t.heard for t in self._topics), *(k.heard for k in self._locks)]:
-            if heard is not None:
-                heard.destroy()
+        for probe in [*(t.probe for t in self._topics), *(k.probe for k in self._locks)]:
+            if probe is not None:
+                probe.destroy()
         self._shared.release()
         return commands
 
@@ -125,7 +126,7 @@ class CommandProbe:
             key=lambda kind: kind not in wanted,
         )
         if offered:
-            found.heard = self._listen(_TYPES[offered[0]], name, None)
+            found.probe = self._listen(_TYPES[offered[0]], name, None)
 
     def _add_lock(self, name: str) -> None:
         publishers = self._node.get_publishers_info_by_topic(name)
@@ -133,27 +134,27 @@ class CommandProbe:
             each.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for each in publishers
         )
         if publishers:
-            heard = self._listen(Bool, name, _LATCHED if are_latched else None)
-            self._locks.append(_Lock(name, _names(publishers), heard))
+            probe = self._listen(Bool, name, _LATCHED if are_latched else None)
+            self._locks.append(_Lock(name, _names(publishers), probe))
 
-    def _listen(self, kind: type, topic: str, qos: QoSProfile | None) -> HeardTopic | None:
+    def _listen(self, kind: type, topic: str, qos: QoSProfile | None) -> TopicProbe | None:
         try:
-            return HeardTopic(self._node, kind, topic, depth=_DEPTH, qos=qos)
+            return TopicProbe(self._node, kind, topic, depth=_DEPTH, qos=qos)
         except RuntimeError:  # another type of it is used in this process
             return None
 
     def _take(self) -> None:
-        self._shared.hear()
+        self._shared.receive()
         for topic in self._topics:
-            if topic.heard is not None and len(topic.seen) < _MOST:
-                topic.seen += topic.heard.take()
+            if topic.probe is not None and len(topic.seen) < _MOST:
+                topic.seen += topic.probe.take()
         for lock in self._locks:
-            for message, _, _ in lock.heard.take() if lock.heard is not None else ():
+            for message, _, _ in lock.probe.take() if lock.probe is not None else ():
                 lock.value = message.data
 
     def _commands(self, topic: '_CommandTopic') -> Iterator[CommandSeen]:
         """Yield the commands that came on a topic."""
-        publishers = topic.heard.publishers() if topic.heard is not None else {}
+        publishers = topic.probe.publishers() if topic.probe is not None else {}
         for message, received, gid in topic.seen:
             age, twist = None, message
             if isinstance(message, TwistStamped):
@@ -172,7 +173,7 @@ class CommandProbe:
 
     # --- drives -------------------------------------------------------------------------------
 
-    def _ask(self) -> dict[str, dict[str, ParameterQuestion]]:
+    def _ask(self) -> dict[str, dict[str, ParameterQuery]]:
         """Ask who subscribes to commands; a parameter that is unknown would spoil the others."""
         services = {name for name, _ in self._node.get_service_names_and_types()}
         nodes = dict.fromkeys(node for each in self._topics for node in each.subscriptions)
@@ -189,11 +190,11 @@ class CommandProbe:
 
     def _drives(self) -> Iterable[ObservedDrive]:
         """Yield the nodes that have a time-out or limits of commands."""
-        for node, questions in self._questions.items():
+        for node, queries in self._queries.items():
             topics = tuple(each.name for each in self._topics if node in each.subscriptions)
             values: dict[str, object] = {}
-            for question in questions.values():
-                values |= question.values or {}
+            for query in queries.values():
+                values |= query.values or {}
             drive = drive_of(node, topics, values)
             if drive is not None:
                 yield drive
@@ -204,17 +205,17 @@ class _CommandTopic:
     name: str
     publishers: tuple[str, ...]
     subscriptions: tuple[str, ...]
-    heard: HeardTopic | None = None
+    probe: TopicProbe | None = None
     seen: list[tuple[Any, int, bytes]] = field(default_factory=list)
     """Messages, when they were received, and the gids of their publishers."""
 
     @property
     def is_connected(self) -> bool:
-        """Whether all who publish can be heard."""
-        return self.heard is None or self.heard.is_connected
+        """Whether all who publish can be received."""
+        return self.probe is None or self.probe.is_connected
 
     @property
-    def is_heard(self) -> bool:
+    def is_received(self) -> bool:
         """Whether enough has come, and of every publisher: one may be connected later."""
         publishers = {gid for _, _, gid in self.seen}
         return len(self.seen) >= ENOUGH and len(publishers) >= len(self.publishers)
@@ -224,7 +225,7 @@ class _CommandTopic:
 class _Lock:
     name: str
     holders: tuple[str, ...]
-    heard: HeardTopic | None
+    probe: TopicProbe | None
     value: bool | None = None
 
 

@@ -21,8 +21,8 @@ from amr_description.doctor.observations.controllers import (
     ObservedLogLine,
     ObservedManager,
 )
-from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import AllParametersQuestion, question
+from amr_description.doctor.ros.queries import AllParametersQuery, query
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.doctor.rules.controllers import DRIVE
 
 _LIST = 'controller_manager_msgs/srv/ListControllers'
@@ -59,7 +59,7 @@ class ControllersProbe:
         self._spawners = tuple(
             sorted(n for n in nodes if n.rpartition('/')[2].startswith('spawner_'))
         )
-        self._log = HeardTopic(node, Log, _LOG, depth=1, qos=_LOG_QOS) if self._asked else None
+        self._log = TopicProbe(node, Log, _LOG, depth=1, qos=_LOG_QOS) if self._asked else None
 
     @property
     def is_done(self) -> bool:
@@ -94,13 +94,11 @@ class _Asked:
     def __init__(self, node: Node, name: str) -> None:
         self.name = name
         self._node = node
-        self._controllers = question(node, ListControllers, f'{name}/list_controllers')
-        self._components = question(
-            node, ListHardwareComponents, f'{name}/list_hardware_components'
-        )
-        self._types = question(node, ListControllerTypes, f'{name}/list_controller_types')
-        self._parameters = AllParametersQuestion(node, name)
-        self._drives: dict[str, AllParametersQuestion] = {}
+        self._controllers = query(node, ListControllers, f'{name}/list_controllers')
+        self._components = query(node, ListHardwareComponents, f'{name}/list_hardware_components')
+        self._types = query(node, ListControllerTypes, f'{name}/list_controller_types')
+        self._parameters = AllParametersQuery(node, name)
+        self._drives: dict[str, AllParametersQuery] = {}
 
     @property
     def has_answered(self) -> bool:
@@ -111,7 +109,7 @@ class _Asked:
         namespace = self.name.rpartition('/')[0]
         for each in controllers.controller:
             if each.type == DRIVE and each.name not in self._drives:
-                drive = AllParametersQuestion(self._node, f'{namespace}/{each.name}')
+                drive = AllParametersQuery(self._node, f'{namespace}/{each.name}')
                 self._drives[each.name] = drive
         values = [each.values for each in self._drives.values()]
         is_known = self._types.response is not None and self._parameters.values is not None

@@ -10,8 +10,8 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import String
 
 from amr_description.doctor.observations.description import Description, DescriptionTopic
-from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import ParameterQuestion, parameters_of
+from amr_description.doctor.ros.queries import ParameterQuery, parameters_of
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.ros.endpoints import endpoint_node
 
 _TYPE = 'std_msgs/msg/String'
@@ -25,9 +25,9 @@ class DescriptionProbe:
     """Observes ``description``."""
 
     def __init__(self) -> None:
-        self._heard: dict[str, HeardTopic] = {}
+        self._probes: dict[str, TopicProbe] = {}
         self._texts: dict[str, dict[str, None]] = {}
-        self._asked: dict[str, ParameterQuestion] = {}
+        self._asked: dict[str, ParameterQuery] = {}
 
     def begin(self, node: Node) -> None:
         """Subscribe to all topics of the name, and ask each robot_state_publisher."""
@@ -35,7 +35,7 @@ class DescriptionProbe:
         self._began = time.monotonic()
         for topic, types in node.get_topic_names_and_types():
             if _TYPE in types and topic.rpartition('/')[2] == _NAME:
-                self._heard[topic] = HeardTopic(node, String, topic, depth=10, qos=_QOS)
+                self._probes[topic] = TopicProbe(node, String, topic, depth=10, qos=_QOS)
                 self._texts[topic] = {}
         for name, namespace in node.get_node_names_and_namespaces():
             if name == 'robot_state_publisher':
@@ -48,7 +48,7 @@ class DescriptionProbe:
         self._take()
         if any(each.values is None for each in self._asked.values()):
             return False
-        latched = {topic: self._publishers(topic)[1] for topic in self._heard}
+        latched = {topic: self._publishers(topic)[1] for topic in self._probes}
         if any(latched[topic] and not texts for topic, texts in self._texts.items()):
             return False
         has_two = any(len(found) > 1 for found in latched.values())
@@ -94,8 +94,8 @@ class DescriptionProbe:
         return found, kept
 
     def _take(self) -> None:
-        for topic, heard in self._heard.items():
-            self._texts[topic].update((message.data, None) for message, *_ in heard.take())
+        for topic, probe in self._probes.items():
+            self._texts[topic].update((message.data, None) for message, *_ in probe.take())
 
 
 def _name(endpoint: TopicEndpointInfo) -> str:

@@ -25,7 +25,7 @@ from amr_description.doctor.observations.graph import (
     ObservedQos,
     ObservedTopic,
 )
-from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
+from amr_description.doctor.ros.queries import GET_PARAMETERS, ParameterQuery
 from amr_description.doctor.ros.shared import CLOCK_TOPIC, Shared, shared_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.local_participants import local_participants, processes_of
@@ -40,7 +40,7 @@ _FEWEST_LOOKS = 20
 _REACH = 0.5
 """s until a server is reached, if it is there."""
 _MARGIN = 0.3
-"""s until a question is asked."""
+"""s until a query is asked."""
 _PARAMETER_EVENTS = '/parameter_events'
 _HOST = 4
 """Bytes of a gid: vendor and host."""
@@ -76,16 +76,16 @@ class GraphProbe:
         self._own = node.get_fully_qualified_name()
         self._shared: Shared = shared_of(node)
         self._began = time.monotonic()
-        self._questions: dict[str, ParameterQuestion] = {}
+        self._queries: dict[str, ParameterQuery] = {}
         for service, _ in node.get_service_names_and_types():
             name = service.removesuffix(GET_PARAMETERS)
             if name not in (service, self._own) and not _is_hidden(name):
-                self._questions[name] = self._shared.ask(name, ['use_sim_time'])
+                self._queries[name] = self._shared.ask(name, ['use_sim_time'])
         host = self._own_host()
         self._work = {
             pid: _work_of(pid)
             for name, prefix in self._announcers()
-            if name in self._questions and prefix[:_HOST] == host
+            if name in self._queries and prefix[:_HOST] == host
             for pid in processes_of(prefix)
         }
 
@@ -93,7 +93,7 @@ class GraphProbe:
     def is_done(self) -> bool:
         """Whether all nodes have answered, or have had time to."""
         waited = time.monotonic() - self._began
-        open_ones = [each for each in self._questions.values() if each.response is None]
+        open_ones = [each for each in self._queries.values() if each.response is None]
         if waited > _REACH:
             open_ones = [each for each in open_ones if each.is_reachable()]
         return not open_ones or waited > PATIENCE + _MARGIN
@@ -154,25 +154,25 @@ class GraphProbe:
                 yield from (self._described(name, None, '') for _ in range(names[name]))
 
     def _described(self, name: str, pid: int | None, host: str) -> GraphNode:
-        question = self._questions.get(name)
-        value = (question.values or {}).get('use_sim_time') if question else None
+        query = self._queries.get(name)
+        value = (query.values or {}).get('use_sim_time') if query else None
         state = _states(pid) if pid is not None else set()
         return GraphNode(
             name=name,
             host=host,
             process=pid,
             is_stopped='T' in state,
-            is_silent=self._is_silent(name, question, pid, state),
+            is_silent=self._is_silent(name, query, pid, state),
             use_sim_time=value if isinstance(value, bool) else None,
         )
 
     def _is_silent(
-        self, name: str, question: ParameterQuestion | None, pid: int | None, state: set[str]
+        self, name: str, query: ParameterQuery | None, pid: int | None, state: set[str]
     ) -> bool:
-        if question is None or question.values is not None or question.asked is None:
+        if query is None or query.values is not None or query.asked is None:
             return False
-        waited = time.monotonic() - question.asked
-        if waited < PATIENCE or question.looks < _FEWEST_LOOKS:
+        waited = time.monotonic() - query.asked
+        if waited < PATIENCE or query.looks < _FEWEST_LOOKS:
             return False
         if pid is None or not serves(self._node, name):
             return False  # of another host it is not known whether it is only busy
@@ -229,8 +229,8 @@ def serves(node: Node, name: str) -> bool:
         return False
     if {each for each, _ in services} - {f'{name}/{each}' for each in _STANDARD}:
         return True
-    heard = {each for each, _ in topics} - {_PARAMETER_EVENTS, CLOCK_TOPIC}
-    return any(_ACTION not in each for each in heard)
+    subscribed = {each for each, _ in topics} - {_PARAMETER_EVENTS, CLOCK_TOPIC}
+    return any(_ACTION not in each for each in subscribed)
 
 
 def qos_of(profile: QoSProfile) -> ObservedQos:

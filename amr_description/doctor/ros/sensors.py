@@ -14,8 +14,8 @@ from rclpy.node import Node
 from sensor_msgs.msg import CameraInfo, Image, Imu, JointState, LaserScan
 
 from amr_description.doctor.observations import sensors as seen
-from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.shared import RobotTime
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds
 
@@ -42,7 +42,7 @@ class _SensorTopic:
     """A topic, and the last message of each of its publishers."""
 
     kind: Any
-    heard: HeardTopic
+    probe: TopicProbe
     last: dict[bytes, tuple[Any, int]] = field(default_factory=dict)
     all: list[tuple[Any, int]] = field(default_factory=list)
     """Of odometry."""
@@ -51,9 +51,9 @@ class _SensorTopic:
 class SensorsProbe:
     """Observes ``sensors``."""
 
-    def __init__(self, *, only_heard: bool = False) -> None:
-        """``only_heard``: leave alone what nobody else hears: a simulator measures it then."""
-        self._only_heard = only_heard
+    def __init__(self, *, only_subscribed: bool = False) -> None:
+        """``only_subscribed``: leave alone what has no other subscriber, and would be measured."""
+        self._only_subscribed = only_subscribed
         self._topics: dict[str, _SensorTopic] = {}
 
     def begin(self, node: Node) -> None:
@@ -72,28 +72,28 @@ class SensorsProbe:
         }
         for topic, kind in found.items():
             is_sensor = kind not in (JointState, Odometry)
-            is_dear = kind in (Image, CameraInfo) or (self._only_heard and is_sensor)
-            if is_dear and not self._is_heard(topic, found):
+            is_dear = kind in (Image, CameraInfo) or (self._only_subscribed and is_sensor)
+            if is_dear and not self._has_subscribers(topic, found):
                 continue
             if kind is Odometry and not any(each.endswith(_TRUTH) for each in found):
                 continue
-            heard = HeardTopic(node, kind, topic, depth=_DEPTHS.get(kind, 10))
-            self._topics[topic] = _SensorTopic(kind, heard)
+            probe = TopicProbe(node, kind, topic, depth=_DEPTHS.get(kind, 10))
+            self._topics[topic] = _SensorTopic(kind, probe)
 
-    def _is_heard(self, topic: str, found: Iterable[str]) -> bool:
-        """Return whether somebody hears a topic, or the pictures that it is the camera_info of."""
+    def _has_subscribers(self, topic: str, found: Iterable[str]) -> bool:
+        """Return whether a topic has subscribers, or the pictures that its camera_info is of."""
         images = [each for each in found if each != topic and _info_of(each) == topic]
         return any(self._node.count_subscribers(each) > 0 for each in (topic, *images))
 
     @property
     def is_done(self) -> bool:
-        """Whether each topic has been heard, of joint states each publisher; and it stands."""
+        """Whether each topic has been received, of joint states each publisher; and it stands."""
         self._take()
         topics = self._topics.values()
         if not self._time.is_known or not all(each.last for each in topics):
             return False
         joints = [each for each in topics if each.kind is JointState]
-        if any(len(each.last) < len(each.heard.publishers()) for each in joints):
+        if any(len(each.last) < len(each.probe.publishers()) for each in joints):
             return False
         if self._is_moving():
             return False
@@ -114,7 +114,7 @@ class SensorsProbe:
 
     def _take(self) -> None:
         for topic in self._topics.values():
-            for message, received, gid in topic.heard.take():
+            for message, received, gid in topic.probe.take():
                 topic.last[gid] = (message, received)
                 if topic.kind is Odometry:
                     topic.all.append((message, received))
@@ -131,9 +131,9 @@ class SensorsProbe:
         return False
 
     def _source(self, topic: _SensorTopic, message: Any, received: int) -> dict[str, Any]:
-        names = tuple(topic.heard.publishers().values())
+        names = tuple(topic.probe.publishers().values())
         return {
-            'topic': topic.heard.topic,
+            'topic': topic.probe.topic,
             'publishers': tuple(name or 'a node without a name' for name in names),
             'frame': message.header.frame_id,
             'age': self._time.age(nanoseconds(message.header.stamp), received),
@@ -150,7 +150,7 @@ class SensorsProbe:
             if topic.kind is not Image or not topic.last:
                 continue
             message, received = [*topic.last.values()][-1]
-            info = self._topics.get(_info_of(topic.heard.topic))
+            info = self._topics.get(_info_of(topic.probe.topic))
             told = [*info.last.values()][-1][0] if info is not None and info.last else None
             yield seen.ObservedImage(
                 **self._source(topic, message, received),
@@ -159,15 +159,15 @@ class SensorsProbe:
                 step=message.step,
                 encoding=message.encoding,
                 size=len(message.data),
-                info_topic=_info_of(topic.heard.topic),
-                info_publishers=tuple(info.heard.publishers().values()) if info else (),
+                info_topic=_info_of(topic.probe.topic),
+                info_publishers=tuple(info.probe.publishers().values()) if info else (),
                 info_size=(told.width, told.height) if told is not None else None,
                 focal_length=told.k[0] if told is not None else None,
             )
 
     def _joints(self) -> Iterable[seen.ObservedJoints]:
         for topic in self._topics.values():
-            names = topic.heard.publishers() if topic.kind is JointState else {}
+            names = topic.probe.publishers() if topic.kind is JointState else {}
             for gid, (message, received) in topic.last.items() if names else ():
                 if gid not in names:
                     continue

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What several probes of one node have in common, so that it is heard and asked only once.
+What several probes of one node have in common, so that it is subscribed to and asked only once.
 
 ``/clock`` is subscribed to by best effort, and every node has one client for its parameters.
 """
@@ -17,8 +17,8 @@ from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
 from amr_description.doctor.observations.clock import ClockTick
-from amr_description.doctor.ros.heard import HeardTopic
-from amr_description.doctor.ros.questions import GET_PARAMETERS, ParameterQuestion
+from amr_description.doctor.ros.queries import GET_PARAMETERS, ParameterQuery
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.ros.messages import nanoseconds
 from amr_description.ros.service_calls import ServiceReadiness
 
@@ -36,30 +36,30 @@ class Shared:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[str, tuple[Client, ServiceReadiness]] = {}
-        self._questions: dict[tuple[str, tuple[str, ...]], ParameterQuestion] = {}
-        self._clock: HeardTopic | None = None
+        self._queries: dict[tuple[str, tuple[str, ...]], ParameterQuery] = {}
+        self._clock: TopicProbe | None = None
         self._matched: float | None = None
         self._users = 0
         self.ticks: list[ClockTick] = []
         """What :meth:`hear` has taken of ``/clock``."""
 
-    def ask(self, node: str, names: Iterable[str]) -> ParameterQuestion:
-        """Return a question to a node, by its full name; it is asked by being looked at."""
+    def ask(self, node: str, names: Iterable[str]) -> ParameterQuery:
+        """Return a query to a node, by its full name; it is asked by being looked at."""
         key = node, tuple(names)
-        if key not in self._questions:
+        if key not in self._queries:
             if node not in self._clients:
                 service = f'{node}{GET_PARAMETERS}'
                 client = self._node.create_client(GetParameters, service)
                 self._clients[node] = client, ServiceReadiness(self._node, client)
-            self._questions[key] = ParameterQuestion(*self._clients[node], key[1])
-        return self._questions[key]
+            self._queries[key] = ParameterQuery(*self._clients[node], key[1])
+        return self._queries[key]
 
     def listen(self) -> None:
         """Subscribe to ``/clock``, once."""
         if self._clock is None:
-            self._clock = HeardTopic(self._node, Clock, CLOCK_TOPIC, depth=_DEPTH)
+            self._clock = TopicProbe(self._node, Clock, CLOCK_TOPIC, depth=_DEPTH)
 
-    def hear(self) -> None:
+    def receive(self) -> None:
         """Take the ticks that have come."""
         for message, received, _ in self._clock.take() if self._clock is not None else ():
             if len(self.ticks) < _MOST_TICKS:
@@ -85,7 +85,7 @@ class Shared:
         self._users += 1
 
     def release(self) -> None:
-        """Count a probe that uses it no more; after the last one nothing is heard or asked."""
+        """Count a probe that uses it no more; after the last one all subscriptions end."""
         self._users -= 1
         if self._users:
             return
@@ -109,7 +109,7 @@ class RobotTime:
 
     def take(self) -> None:
         """Take the ticks that have come. Where time was reset, the earlier ones are left out."""
-        self._shared.hear()
+        self._shared.receive()
         ticks = self._shared.ticks
         for place in range(max(self._seen, 1), len(ticks)):
             if ticks[place].time < ticks[place - 1].time:

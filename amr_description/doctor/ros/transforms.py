@@ -12,8 +12,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
 from amr_description.doctor.observations.transforms import Edge, ObservedTransforms, Tree
-from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.shared import RobotTime
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.model.frames import Quaternion
 from amr_description.ros.messages import nanoseconds
 
@@ -28,7 +28,7 @@ class TransformsProbe:
     """Observes ``transforms``."""
 
     def __init__(self) -> None:
-        self._heard: dict[tuple[str, bool], HeardTopic] = {}
+        self._probes: dict[tuple[str, bool], TopicProbe] = {}
         self._seen: dict[tuple[str, str, str, bool, bytes], _Seen] = {}
 
     def begin(self, node: Node) -> None:
@@ -41,8 +41,8 @@ class TransformsProbe:
                 continue
             namespace = topic.removesuffix(_STATIC if is_static else _MOVING)
             qos = _STATIC_QOS if is_static else None
-            heard = HeardTopic(node, TFMessage, topic, depth=200, qos=qos)
-            self._heard[namespace, is_static] = heard
+            probe = TopicProbe(node, TFMessage, topic, depth=200, qos=qos)
+            self._probes[namespace, is_static] = probe
 
     @property
     def is_done(self) -> bool:
@@ -59,7 +59,7 @@ class TransformsProbe:
     def observe(self) -> ObservedTransforms:
         """Return what was seen of publishers that are still there."""
         self._take()
-        names = {key: each.publishers() for key, each in self._heard.items()}
+        names = {key: each.publishers() for key, each in self._probes.items()}
         trees: dict[str, list[Edge]] = {}
         for (namespace, parent, child, is_static, gid), each in self._seen.items():
             if gid not in names[namespace, is_static]:
@@ -97,19 +97,21 @@ class TransformsProbe:
 
     def _has_heard_all(self) -> bool:
         """Return whether something has come of each who publishes transforms."""
-        heard = {(namespace, is_static, gid) for namespace, *_, is_static, gid in self._seen}
+        received = {(namespace, is_static, gid) for namespace, *_, is_static, gid in self._seen}
         return all(
-            (*key, gid) in heard for key, each in self._heard.items() for gid in each.publishers()
+            (*key, gid) in received
+            for key, each in self._probes.items()
+            for gid in each.publishers()
         )
 
     def _has_all_static(self, namespace: str) -> bool:
-        heard = self._heard.get((namespace, True))
+        probe = self._probes.get((namespace, True))
         said = {key[4] for key in self._seen if key[0] == namespace and key[3]}
-        return heard is not None and heard.publishers().keys() <= said
+        return probe is not None and probe.publishers().keys() <= said
 
     def _take(self) -> None:
-        for (namespace, is_static), heard in self._heard.items():
-            for message, received, gid in heard.take():
+        for (namespace, is_static), probe in self._probes.items():
+            for message, received, gid in probe.take():
                 for each in message.transforms:
                     parent = each.header.frame_id.removeprefix('/')
                     child = each.child_frame_id.removeprefix('/')

@@ -48,13 +48,13 @@ def summary(findings: Sequence[Finding], seen: ContractObservations) -> str:
 
 def silent_topics(seen: ContractObservations) -> list[str]:
     """Return the topics on which messages were waited for in vain."""
-    heard = (
+    counts = (
         (seen.clock.name, seen.ticks or not seen.is_simulated),
         (seen.tf.name, seen.transforms),
         (seen.odom.name, seen.odometry),
         (seen.scan.name, seen.scans),
     )
-    return [name for name, messages in heard if not messages]
+    return [name for name, messages in counts if not messages]
 
 
 def as_json(findings: Sequence[Finding], seen: ContractObservations) -> str:

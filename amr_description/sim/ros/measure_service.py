@@ -49,12 +49,12 @@ class MeasureService:
         node.create_service(Trigger, '~/measure', self._measure, callback_group=group)
 
     async def _measure(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        # First: who is heard now is heard in the cycle that follows, too.
-        heard = [each.topic_name for each in self._node.publishers if _is_heard(each)]
+        # First: what has subscribers now has them in the cycle that follows, too.
+        topics = [each.topic_name for each in self._node.publishers if _has_subscribers(each)]
         response.success = await self._submit(self._request)
         if response.success:
             await self._submit(_nothing)  # after the cycle in which they measure
-            response.message = ' '.join(heard)
+            response.message = ' '.join(topics)
         else:
             response.message = (
                 'time passes, and sensors measure at their rates; pause it first '
@@ -70,7 +70,7 @@ class MeasureService:
         return is_possible
 
 
-def _is_heard(publisher: Any) -> bool:
+def _has_subscribers(publisher: Any) -> bool:
     return bool(publisher.get_subscription_count())
 
 

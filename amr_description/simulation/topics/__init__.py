@@ -11,7 +11,7 @@ The topics of a simulation, with ROS or without: what is published at the end of
 ``world_markers.py``        ``~/world``: the static geometry as markers
 
 ``sensor_manager.py``       all sensors of all robots: which one measures, and when
-``equipment.py``            what they measure with; loaded with the first sensor
+``sensor_factory.py``            what they measure with; loaded with the first sensor
 ``sensor_topics.py``        what the topics of one sensor are: the contract of the modules below
 ``contact.py``              contact sensors and bumpers
 ``worker.py``               the thread that measures what takes long

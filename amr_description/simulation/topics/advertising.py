@@ -3,7 +3,7 @@
 """
 How the topics of a simulation are made, with ROS or without: the contract.
 
-A topic takes samples; its encoder makes the bytes of a message of each that somebody hears.
+A topic takes samples; its encoder makes the bytes of a message of each that has subscribers.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ class Topic(Protocol):
     """A topic on which samples go out at the end of a cycle."""
 
     @property
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether somebody subscribes, or records."""
 
     def send(self, sample: Any) -> None:
@@ -42,7 +42,7 @@ class Topics(Protocol):
         Args:
             name: Its full name.
             message: ``package/msg/Name``.
-            encode: Called for each sample that somebody hears.
+            encode: Called for each sample that has subscribers.
 
         Raises:
             AmrError: It cannot be made.

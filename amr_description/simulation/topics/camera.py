@@ -194,19 +194,19 @@ class CameraTopics(SensorTopics):
         )
 
     @property
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody subscribes to one of them."""
         pictures = self._image, self._compressed, self._depth, self._points
-        return any(topic.is_heard for topic in (*pictures, *self._infos))
+        return any(topic.has_subscribers for topic in (*pictures, *self._infos))
 
     def measure(self, time: int) -> None:
         """Have a picture made of what is subscribed to."""
         camera = self._camera
-        with_color = self._image.is_heard or self._compressed.is_heard
-        with_points = self._points.is_heard
+        with_color = self._image.has_subscribers or self._compressed.has_subscribers
+        with_points = self._points.has_subscribers
         shot = self._simulated.shot(
             with_color=with_color or (with_points and bool(camera.image_topic)),
-            with_depth=with_points or self._depth.is_heard,
+            with_depth=with_points or self._depth.has_subscribers,
         )
         if shot.with_color or shot.with_depth:
             self._task.request(partial(self._make, time, shot))
@@ -226,11 +226,11 @@ class CameraTopics(SensorTopics):
         if picture.color is not None:
             pixels = encoded(picture.color, camera.encoding)
             self._image.write(time, pixels)
-            if self._compressed.is_heard:
+            if self._compressed.has_subscribers:
                 self._compressed.write(time, jpeg(pixels, camera.encoding))
         if picture.depth is not None:
             self._depth.write(time, picture.depth)
-            if self._points.is_heard:
+            if self._points.has_subscribers:
                 self._points.write(time, self._simulated.points(picture))
         self._send_infos(time)
 
@@ -246,14 +246,14 @@ class _BulkTopic:
         self._topic, self._encode = topic, encode
 
     @property
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody subscribed at the last look."""
-        return self._topic is not None and self._topic.is_heard
+        return self._topic is not None and self._topic.has_subscribers
 
     def write(self, time: int, data: Any) -> None:
         """Publish if anybody subscribes."""
         topic = self._topic
-        if topic is not None and topic.is_heard:
+        if topic is not None and topic.has_subscribers:
             topic.write_aside(self._encode(time, data))
 
 

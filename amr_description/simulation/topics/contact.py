@@ -56,9 +56,9 @@ class ContactTopics(SensorTopics):
         )
 
     @property
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody subscribes."""
-        return self._topic.is_heard
+        return self._topic.has_subscribers
 
     def measure(self, time: int) -> None:
         """Publish what touches the sensor."""

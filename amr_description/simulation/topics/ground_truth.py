@@ -153,10 +153,10 @@ class _RobotTruth:
 
     def report(self, time: int) -> None:
         """Measure and publish, as far as there are subscribers."""
-        if self._odom.is_heard:
+        if self._odom.has_subscribers:
             pose, velocity = self._robot.pose(self._base), self._robot.velocity(self._base)
             self._odom.send(BodyOdometrySample(time, pose, *velocity, self._frames))
-        if self._wheels is not None and self._wheels.is_heard:
+        if self._wheels is not None and self._wheels.has_subscribers:
             values = tuple(
                 (float(wheel.is_touching), wheel.normal_force, wheel.along, wheel.across)
                 for wheel in self._wheel_slip.read()

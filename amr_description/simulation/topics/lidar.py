@@ -215,9 +215,9 @@ class LidarTopics(SensorTopics):
         )
 
     @property
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody subscribes to one of them; nothing is measured else."""
-        return any(topic.is_heard for topic in self._topics)
+        return any(topic.has_subscribers for topic in self._topics)
 
     def measure(self, time: int) -> None:
         """Measure, and publish; ``time``: of this cycle, ns."""
@@ -242,5 +242,5 @@ class LidarTopics(SensorTopics):
         """Measure from a copy, and publish; on the thread of the worker."""
         scan = self._lidar.measure(time, body, self._context.scenes.scene(state))
         for topic in self._topics:
-            if topic.is_heard:
+            if topic.has_subscribers:
                 topic.write_aside(scan)

@@ -13,7 +13,7 @@ from amr_description.simulation.topics.advertising import Topics
 
 if TYPE_CHECKING:  # a tenth of the simulator's start; most robots have no such sensors
     from amr_description.sim.sensor_schedule import SensorSchedule
-    from amr_description.simulation.topics.equipment import Equipment
+    from amr_description.simulation.topics.sensor_factory import SensorFactory
     from amr_description.simulation.topics.sensor_topics import SensorContext, SensorTopics
 
     _Sensor: TypeAlias = tuple[SensorSchedule, SensorTopics, SensorContext]
@@ -57,7 +57,7 @@ class SensorManager:
         self._is_paced = is_paced
         self._has_ticked = has_ticked
         self._camera_renderer = camera_renderer
-        self._equipment: Equipment | None = None
+        self._equipment: SensorFactory | None = None
         self._robots: dict[str, tuple[_Sensor, ...]] = {}
         self._is_requested = False
         self.on_first: Callable[[], None] | None = None
@@ -83,10 +83,10 @@ class SensorManager:
         if not sensors:
             return
         from amr_description.sim.sensor_schedule import SensorSchedule
-        from amr_description.simulation.topics.equipment import Equipment, TOPICS
+        from amr_description.simulation.topics.sensor_factory import SensorFactory, TOPICS
 
         if self._equipment is None:
-            self._equipment = Equipment(
+            self._equipment = SensorFactory(
                 self._topics,
                 self._world,
                 self._log,
@@ -136,11 +136,11 @@ class SensorManager:
                 schedule.restart()
 
     def request(self) -> None:
-        """Have the sensors that are heard measure in the next cycle; on the control thread."""
+        """Have the sensors with subscribers measure in the next cycle; on the control thread."""
         self._is_requested = True
 
     def report(self, time: int) -> None:
-        """Have the sensors measure that are due at ``time``, ns, or requested, and heard."""
+        """Have the sensors with subscribers measure that are due at ``time``, ns, or requested."""
         if not self._robots:
             return
         is_requested, self._is_requested = self._is_requested, False
@@ -152,7 +152,7 @@ class SensorManager:
             if name in present:
                 for schedule, topics, _ in sensors:
                     is_due = is_tick and schedule.is_due(time)
-                    if is_requested and topics.is_heard:
+                    if is_requested and topics.has_subscribers:
                         topics.answer(time)
-                    elif is_due and topics.is_heard:
+                    elif is_due and topics.has_subscribers:
                         topics.measure(time)

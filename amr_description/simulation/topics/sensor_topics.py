@@ -66,13 +66,13 @@ class SensorTopics(ABC):
     """
     The topics of one sensor of one robot.
 
-    Made by :data:`~amr_description.simulation.topics.equipment.TOPICS`; everything else is called
-    on the control thread, at the end of a cycle.
+    Made by :data:`~amr_description.simulation.topics.sensor_factory.TOPICS`; all else is called on
+    the control thread, at the end of a cycle.
     """
 
     @property
     @abstractmethod
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody subscribes to one of them; nothing is measured else."""
 
     @abstractmethod

@@ -4,7 +4,7 @@
 The findings of ``ros2 doctor``, for the pages that show them.
 
 One examination at a time serves all pages, by a hidden node that is there as long as it takes.
-What costs processor time is left out: sensors that nobody hears, which a simulator would measure
+What costs processor time is left out: sensors without subscribers, which a simulator would measure
 for this alone, and what Nav2 demands. The machine and the environment are those of the shell in
 which ``ros2 doctor`` is typed.
 """
@@ -27,7 +27,7 @@ _DISCOVERY = 1.0
 """s from a page's first look to the examination: until then what there is has been discovered."""
 _NODE = '_viewer_doctor'
 _PROBES = {name: probe for name, probe in PROBES.items() if name != 'navigation'} | {
-    'sensors': partial(SensorsProbe, only_heard=True)
+    'sensors': partial(SensorsProbe, only_subscribed=True)
 }
 
 

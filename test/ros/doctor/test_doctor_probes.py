@@ -28,8 +28,8 @@ from amr_description.doctor.ros.clock import ClockProbe, stamp_in
 from amr_description.doctor.ros.collector import collect, RosExamination, what_is_made_goes
 from amr_description.doctor.ros.commands import CommandProbe, drive_of
 from amr_description.doctor.ros.graph import serves
-from amr_description.doctor.ros.heard import HeardTopic
 from amr_description.doctor.ros.shared import _SHARED, shared_of
+from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.doctor.ros.transforms import TransformsProbe
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.service_calls import wait_until
@@ -138,7 +138,7 @@ def test_commands_are_listened_to_until_all_who_publish_them_are_connected(graph
         probe = CommandProbe()
         with what_is_made_goes(doctor):
             with monkeypatch.context() as patch:
-                patch.setattr(HeardTopic, 'is_connected', False)
+                patch.setattr(TopicProbe, 'is_connected', False)
                 probe.begin(doctor)
                 assert not wait_until(doctor, lambda: probe.is_done or None, timeout=0.2)
             assert wait_until(doctor, lambda: probe.is_done or None, timeout=PATIENCE)

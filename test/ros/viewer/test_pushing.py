@@ -30,17 +30,17 @@ def test_a_link_is_pushed_and_let_go_until_the_simulator_has_gone(node):
     node.create_subscription(Entity, '/sim/wrench/clear', cleared.append, 10)
     pushing = Pushing(node, '/sim')
 
-    def is_heard(*counts):
+    def has_subscribers(*counts):
         def are_equal():
             return (len(pushes), len(cleared)) == counts or None
 
         return wait_until(node, are_equal, timeout=PATIENCE)
 
     pushing.push('amr', 'base_link', (1.0, 0.0, 0.0), NONE)
-    assert is_heard(1, 0)
+    assert has_subscribers(1, 0)
     assert (pushes[0].entity.name, pushes[0].wrench.force.x) == ('amr::base_link', 1.0)
     pushing.push('amr', 'base_link', NONE, NONE)
-    assert is_heard(2, 1)
+    assert has_subscribers(2, 1)
     assert cleared[0] == pushes[1].entity == pushes[0].entity
     assert pushes[1].wrench == Wrench()  # it also ends a push that is taken after what clears it
     pushing.destroy()

@@ -134,26 +134,26 @@ class ContractDrive:
     def _phase(
         self, linear: float, angular: float, is_done: Callable[[list[OdometrySeen]], bool]
     ) -> Phase:
-        heard = self._collector.odometry
-        first = max(0, len(heard) - 1)
-        began = heard[first].stamp
+        seen = self._collector.odometry
+        first = max(0, len(seen) - 1)
+        began = seen[first].stamp
         self._command = (linear, angular)
-        self._wait(lambda: is_done(heard[first:]))
+        self._wait(lambda: is_done(seen[first:]))
         self._command = None
         sent = self._sent
-        self._wait(lambda: _stands(heard, _stamp_at(heard, sent)))
-        ceased = _stamp_at(heard, sent)
-        return Phase(linear, angular, began, ceased or heard[-1].stamp, tuple(heard[first:]))
+        self._wait(lambda: _stands(seen, _stamp_at(seen, sent)))
+        ceased = _stamp_at(seen, sent)
+        return Phase(linear, angular, began, ceased or seen[-1].stamp, tuple(seen[first:]))
 
-    def _is_far_enough(self, heard: list[OdometrySeen]) -> bool:
-        way = math.hypot(heard[-1].x - heard[0].x, heard[-1].y - heard[0].y)
-        is_fast = max(each.linear[0] for each in heard) >= _REACHED * LINEAR_SPEED
-        is_over = heard[-1].stamp - heard[0].stamp > PROGRESS_TIME
+    def _is_far_enough(self, seen: list[OdometrySeen]) -> bool:
+        way = math.hypot(seen[-1].x - seen[0].x, seen[-1].y - seen[0].y)
+        is_fast = max(each.linear[0] for each in seen) >= _REACHED * LINEAR_SPEED
+        is_over = seen[-1].stamp - seen[0].stamp > PROGRESS_TIME
         return (way >= PROGRESS and is_fast) or way >= _LONGEST_WAY or is_over
 
-    def _is_turning(self, heard: list[OdometrySeen]) -> bool:
-        is_fast = max(each.angular for each in heard) >= _REACHED * ANGULAR_SPEED
-        return is_fast or heard[-1].stamp - heard[0].stamp > _TURNING_TIME
+    def _is_turning(self, seen: list[OdometrySeen]) -> bool:
+        is_fast = max(each.angular for each in seen) >= _REACHED * ANGULAR_SPEED
+        return is_fast or seen[-1].stamp - seen[0].stamp > _TURNING_TIME
 
     def _wait(self, condition: Callable[[], bool]) -> None:
         """Spin until a condition holds, or odometry ends."""
@@ -184,23 +184,23 @@ class ContractDrive:
         self._publisher.publish(message)
 
 
-def _stamp_at(heard: list[OdometrySeen], sent: int) -> int | None:
+def _stamp_at(seen: list[OdometrySeen], sent: int) -> int | None:
     """
     Return the stamp of the first odometry that came after something was sent; None: none yet.
 
     The last that this process has looked at may be older.
     """
-    return next((each.stamp for each in heard if each.received >= sent), None)
+    return next((each.stamp for each in seen if each.received >= sent), None)
 
 
-def _stands(heard: list[OdometrySeen], ceased: int | None) -> bool:
+def _stands(seen: list[OdometrySeen], ceased: int | None) -> bool:
     """Return whether the robot has stood for a while, or was waited for long enough."""
     if ceased is None:
         return False
-    last = heard[-1].stamp
+    last = seen[-1].stamp
     if last - ceased > _BRAKING_TIME:
         return True
     if last - ceased < _STANDING_TIME:
         return False
-    latest = [each for each in heard if each.stamp >= last - _STANDING_TIME]
+    latest = [each for each in seen if each.stamp >= last - _STANDING_TIME]
     return all(max(*map(abs, e.linear), abs(e.angular)) < STANDING for e in latest)

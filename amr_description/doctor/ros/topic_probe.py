@@ -23,7 +23,7 @@ from amr_description.ros.rclpy_internals import RCLError
 UNKNOWN = ''
 
 
-class HeardTopic:
+class TopicProbe:
     """A subscription by best effort, which holds up nobody; only what is latched is reliable."""
 
     def __init__(

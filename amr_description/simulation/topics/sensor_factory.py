@@ -29,7 +29,7 @@ TOPICS: Mapping[type, Callable[[Any, SensorContext], SensorTopics]] = {
 """Type of a sensor's description → what makes its topics."""
 
 
-class Equipment:
+class SensorFactory:
     """What all sensors of a world share."""
 
     def __init__(

@@ -16,7 +16,7 @@ from amr_description.ros.service_calls import ServiceReadiness
 GET_PARAMETERS = '/get_parameters'
 
 _AGAIN = 0.5
-"""s until a question is asked again: a server may throw away its first response to a client that
+"""s until a query is asked again: a server may throw away its first response to a client that
 it has not discovered yet."""
 _PATIENCE = 2.0
 """s that a server has to answer."""
@@ -24,11 +24,11 @@ _FEWEST_LOOKS = 60
 """Looks for the answer meanwhile: a process that had no time to look may have missed it."""
 
 
-class Question:
+class Query:
     """A call that is made until it is answered; by being looked at."""
 
     def __init__(self, client: Client, is_reachable: ServiceReadiness, request: Any) -> None:
-        """``client``: several questions may have one; ``is_reachable``: of it."""
+        """``client``: several queries may have one; ``is_reachable``: of it."""
         self._client = client
         self._request = request
         self._futures: list[Future] = []
@@ -68,13 +68,13 @@ class Question:
         return time.monotonic() - since >= _PATIENCE
 
 
-def question(node: Node, service_type: Any, service: str, **fields: Any) -> Question:
-    """Make a question with a client of its own; ``fields``: of the request."""
+def query(node: Node, service_type: Any, service: str, **fields: Any) -> Query:
+    """Make a query with a client of its own; ``fields``: of the request."""
     client = node.create_client(service_type, service)
-    return Question(client, ServiceReadiness(node, client), service_type.Request(**fields))
+    return Query(client, ServiceReadiness(node, client), service_type.Request(**fields))
 
 
-class ParameterQuestion(Question):
+class ParameterQuery(Query):
     """Some parameters of a node, by name."""
 
     def __init__(
@@ -94,20 +94,20 @@ class ParameterQuestion(Question):
         return {name: each for name, each in values.items() if each is not None}
 
 
-def parameters_of(node: Node, of: str, names: tuple[str, ...]) -> ParameterQuestion:
-    """Make a question for parameters, with a client of its own; ``of``: a node's full name."""
+def parameters_of(node: Node, of: str, names: tuple[str, ...]) -> ParameterQuery:
+    """Make a query for parameters, with a client of its own; ``of``: a node's full name."""
     client = node.create_client(GetParameters, f'{of}{GET_PARAMETERS}')
-    return ParameterQuestion(client, ServiceReadiness(node, client), names)
+    return ParameterQuery(client, ServiceReadiness(node, client), names)
 
 
-class AllParametersQuestion:
+class AllParametersQuery:
     """All parameters of a node."""
 
     def __init__(self, node: Node, of: str) -> None:
         """``of``: the node's full name."""
         self._node, self._of = node, of
-        self._list = question(node, ListParameters, f'{of}/list_parameters')
-        self._values: ParameterQuestion | None = None
+        self._list = query(node, ListParameters, f'{of}/list_parameters')
+        self._values: ParameterQuery | None = None
 
     @property
     def values(self) -> dict[str, object] | None:
