@@ -324,6 +324,31 @@ def test_no_allowance_is_unused():
     assert allowed - free - used == set()
 
 
+def picture() -> str:
+    """
+    Return the arrows as a table, the highest floor first, without those that others imply.
+
+    It stands in docs/architecture.md; ``python -m pytest -k arrows_stand`` prints what it lacks.
+    """
+    below: dict[str, set[str]] = {}
+    for room in TopologicalSorter(ARROWS).static_order():
+        below[room] = ARROWS[room].union(*(below[each] for each in ARROWS[room]))
+    floors: dict[str, int] = {}
+    for room in TopologicalSorter(ARROWS).static_order():
+        floors[room] = 1 + max((floors[each] for each in ARROWS[room]), default=-1)
+    lines = ['| floor | folder | imports from |', '| --: | --- | --- |']
+    for room in sorted(ARROWS.keys() - {'base', 'amr_description', '__main__'}, key=str):
+        implied = set().union(*(below[each] for each in ARROWS[room]))
+        direct = ', '.join(f'`{each}`' for each in sorted(ARROWS[room] - implied - {'base'}))
+        lines.append(f'| {floors[room]} | `{room}` | {direct} |'.replace('|  |', '| |'))
+    head, rule, *rows = lines
+    return '\n'.join([head, rule, *sorted(rows, key=lambda row: -int(row.split()[1]))])
+
+
+def test_the_arrows_stand_in_the_docs():
+    assert picture() in (ROOT / 'docs' / 'architecture.md').read_text()
+
+
 def test_no_modules_import_each_other_in_a_circle():
     arrows = {module: set() for module in SOURCES}
     for module, path, line, name in own_imports():
