@@ -16,6 +16,7 @@ from support.control_fakes import (
     start,
     WHEELS,
 )
+from support.controller_bench import ControllerBench
 
 from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import CommandInterface, NO_INTERFACES
@@ -37,40 +38,27 @@ JOINTS = ('joint1', 'joint2', 'joint3')
 NOTHING = pytest.approx([math.nan] * 3, nan_ok=True)
 
 
-class Bench:
+class Bench(ControllerBench):
     """An active controller of that type, with interfaces."""
 
     def __init__(self, type_name=FORWARD, interface='position', **values):
-        self.log = FakeLog()
-        found = CONTROLLERS.find(type_name)
-        self.controller = found(ControllerContext('forward', self.log))
         if not values:
             values = {'joints': JOINTS}
             values |= {'interface_name': interface} if type_name == FORWARD else {}
-        self.controller.configure(build(found.parameters_type, values))
-        names = self.controller.command_interfaces().names
-        self.handles = [CommandInterface(*name.split('/', 1)) for name in names]
+        super().__init__(type_name, **values)
         (self.port,) = self.controller.inputs()
         self.activate()
-
-    def activate(self):
-        self.controller.activate(self.handles, (), 0)
-        self.port.open()
 
     def command(self, *values):
         self.port.put(CommandsSample(values))
         return self.update()
-
-    def update(self):
-        self.controller.update(10 * MS, 10 * MS)
-        return [handle.value for handle in self.handles]
 
 
 def test_a_command_is_written_as_it_is_and_stays_in_force():
     bench = Bench()
     assert bench.update() == NOTHING
     assert bench.command(10.0, 20.0, 30.0) == [10.0, 20.0, 30.0]
-    bench.handles[0].value = 5.0  # for instance by a limiter
+    bench.commands[0].value = 5.0  # for instance by a limiter
     assert bench.update() == [10.0, 20.0, 30.0]
 
 
@@ -88,20 +76,20 @@ def test_interfaces_are_joints_times_interface_in_order():
 def test_several_interfaces_of_one_joint():
     bench = Bench(MULTI, joint='joint1', interface_names=['position', 'velocity', 'effort'])
     assert bench.command(1.0, 2.0, 3.0) == [1.0, 2.0, 3.0]
-    assert [handle.name for handle in bench.handles] == [
+    assert [handle.name for handle in bench.commands] == [
         'joint1/position',
         'joint1/velocity',
         'joint1/effort',
     ]
     bench.controller.deactivate(0)
-    assert math.isnan(bench.handles[0].value)
-    assert [handle.value for handle in bench.handles[1:]] == [0.0, 0.0]
+    assert math.isnan(bench.commands[0].value)
+    assert [handle.value for handle in bench.commands[1:]] == [0.0, 0.0]
 
 
 @pytest.mark.parametrize(('type_name', 'interface'), GROUPS.items())
 def test_a_joint_group_needs_only_its_joints(type_name, interface):
     bench = Bench(type_name)
-    assert [handle.name for handle in bench.handles] == [f'{j}/{interface}' for j in JOINTS]
+    assert [handle.name for handle in bench.commands] == [f'{j}/{interface}' for j in JOINTS]
     assert bench.command(1.0, 2.0, 3.0) == [1.0, 2.0, 3.0]
     with pytest.raises(ParameterError, match=f"'interface_name' must be one of {interface}"):
         Bench(type_name, joints=JOINTS, interface_name='temperature')
@@ -162,7 +150,7 @@ def test_nothing_keeps_moving_after_deactivation(interface, rest, ending):
     bench.port.put(CommandsSample((4.0, 5.0, 6.0)))
     getattr(bench.controller, ending)(0)
     at_rest = pytest.approx([rest] * 3, nan_ok=True)
-    assert [handle.value for handle in bench.handles] == at_rest
+    assert [handle.value for handle in bench.commands] == at_rest
     if ending == 'deactivate':
         bench.port.close()
         bench.activate()
@@ -196,7 +184,7 @@ def test_parameters_that_name_nothing_or_a_thing_twice_are_refused(type_name, va
 def test_fewer_handles_than_asked_for_are_refused():
     bench = Bench()
     with pytest.raises(ControllerError, match='Expected 3 command interfaces, got 2'):
-        bench.controller.activate(bench.handles[:2], (), 0)
+        bench.controller.activate(bench.commands[:2], (), 0)
 
 
 def test_an_interface_that_is_not_a_double_is_refused():

@@ -5,14 +5,11 @@
 import math
 
 import pytest
-from support.control_fakes import FakeLog, MS
+from support.controller_bench import ControllerBench
 
-from amr_description.control.contracts import ControllerContext, Goal, GoalStatus
+from amr_description.control.contracts import Goal, GoalStatus
 from amr_description.control.dof_samples import GripperGoal, GripperState
-from amr_description.control.interfaces import CommandInterface, StateInterface
-from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
-from amr_description.parameters import build
 
 PARALLEL = 'parallel_gripper_action_controller/GripperActionController'
 POSITION = 'position_controllers/GripperActionController'
@@ -20,23 +17,14 @@ EFFORT = 'effort_controllers/GripperActionController'
 KINDS = (PARALLEL, POSITION, EFFORT)
 
 
-class Bench:
+class Bench(ControllerBench):
     """A gripper at 0.02 that goes where ``move`` says, activated; 100 Hz."""
 
     def __init__(self, kind, **values):
-        found = CONTROLLERS.find(kind)
-        self.controller = found(ControllerContext('gripper', FakeLog()))
-        table = {'joint': 'finger'} | {k.replace('__', '.'): v for k, v in values.items()}
-        self.controller.configure(build(found.parameters_type, table))
-        names = self.controller.command_interfaces().names
-        self.commands = {name: CommandInterface(*name.split('/')) for name in names}
-        names = self.controller.state_interfaces().names
-        self.states = {n.split('/')[1]: StateInterface(*n.split('/'), 0.0) for n in names}
-        self.states['position'].value = 0.02
-        self.time = 0
-        self.controller.activate(
-            list(self.commands.values()), list(self.states.values()), self.time
-        )
+        super().__init__(kind, **{'joint': 'finger'} | values)
+        self.activate()
+        self.measured = {state.interface: state for state in self.states}
+        self.measured['position'].value = 0.02
         (self.action,) = self.controller.actions()
         self.action.open()
 
@@ -48,13 +36,11 @@ class Bench:
 
     def run(self, count=1, position=None, velocity=0.0):
         if position is not None:
-            self.states['position'].value = position
-        if 'velocity' in self.states:
-            self.states['velocity'].value = velocity
-        for _ in range(count):
-            self.time += 10 * MS
-            self.controller.update(self.time, 10 * MS)
-        return {name: handle.value for name, handle in self.commands.items()}
+            self.measured['position'].value = position
+        if 'velocity' in self.measured:
+            self.measured['velocity'].value = velocity
+        self.update(count)
+        return {handle.name: handle.value for handle in self.commands}
 
 
 @pytest.mark.parametrize('kind', KINDS)
@@ -71,7 +57,7 @@ def test_a_goal_succeeds_within_the_tolerance(kind):
     assert status is GoalStatus.SUCCEEDED
     assert (state.joint, state.position) == ('finger', 0.036)
     assert (state.reached_goal, state.stalled) == (True, False)
-    assert bench.run(position=0.036).keys() == bench.commands.keys()
+    assert bench.run(position=0.036).keys() == {handle.name for handle in bench.commands}
 
 
 @pytest.mark.parametrize('kind', KINDS)
@@ -136,7 +122,7 @@ def test_a_parallel_gripper_commands_its_limits_too():
 def test_without_a_velocity_state_the_positions_say_whether_it_moves():
     bench = Bench(PARALLEL, state_interfaces=['position', 'effort'], stall_timeout=0.1)
     goal = bench.goal(0.0)
-    bench.states['effort'].value = 3.0
+    bench.measured['effort'].value = 3.0
     for step in range(30):
         bench.run(position=0.02 + 0.001 * step)
     assert goal.is_live
@@ -156,7 +142,7 @@ def test_an_effort_gripper_pushes_with_a_limited_effort():
     bench.run(position=0.06)
     assert goal.outcome[1].reached_goal
     bench.controller.deactivate(0)
-    assert bench.commands['finger/effort'].value == 0.0
+    assert {handle.name: handle.value for handle in bench.commands}['finger/effort'] == 0.0
 
 
 @pytest.mark.parametrize(

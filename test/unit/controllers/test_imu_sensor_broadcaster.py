@@ -5,14 +5,13 @@
 import math
 
 import pytest
-from support.control_fakes import collect, FakeLog, MS
+from support.control_fakes import MS
+from support.controller_bench import ControllerBench
 
-from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import IMU_INTERFACES, NO_INTERFACES, StateInterface
-from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.broadcasters.sensor_broadcasters import ImuParameters
 from amr_description.errors import ControllerError, ParameterError
-from amr_description.parameters import build, specs
+from amr_description.parameters import specs
 
 NAMES = {'sensor_name': 'imu', 'frame_id': 'imu_link'}
 ORIENTATION = (0.5, 0.5, 0.5, -0.5)
@@ -28,16 +27,14 @@ def make_states():
     ]
 
 
-class Bench:
+class Bench(ControllerBench):
     def __init__(self, **values):
-        found = CONTROLLERS.find('imu_sensor_broadcaster/IMUSensorBroadcaster')
-        self.controller = found(ControllerContext('imu_sensor_broadcaster', FakeLog()))
-        self.controller.configure(build(found.parameters_type, NAMES | values))
-        self.sent = collect(self.controller.outputs()[0])
+        super().__init__('imu_sensor_broadcaster/IMUSensorBroadcaster', **NAMES | values)
+        (self.sent,) = self.sent.values()
 
-    def read(self, states, time=10 * MS):
-        self.controller.activate((), states, 0)
-        self.controller.update(time, 10 * MS)
+    def read(self, states):
+        self.activate(states)
+        self.update()
         return self.sent[-1]
 
 
@@ -141,4 +138,4 @@ def test_it_can_be_activated_again():
     bench = Bench()
     bench.read(make_states())
     bench.controller.deactivate(0)
-    assert bench.read(make_states(), 20 * MS).stamp == 20 * MS
+    assert bench.read(make_states()).stamp == 20 * MS

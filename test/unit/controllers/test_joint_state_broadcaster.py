@@ -5,19 +5,18 @@
 import math
 
 import pytest
-from support.control_fakes import collect, FakeLog, MS, WHEELS
+from support.control_fakes import MS, WHEELS
+from support.controller_bench import ControllerBench
 from support.paths import ROOT
 
-from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import ALL_INTERFACES, StateInterface
 from amr_description.controllers.broadcasters.joint_state_broadcaster import (
     BroadcasterParameters,
-    JointStateBroadcaster,
 )
 from amr_description.errors import ControllerError
 from amr_description.log import Severity
 from amr_description.model.urdf import load
-from amr_description.parameters import build, specs
+from amr_description.parameters import specs
 
 URDF = load(ROOT / 'urdf' / 'amr.urdf')
 STANDARD = ('position', 'velocity', 'effort')
@@ -34,18 +33,16 @@ def make_states(joints=JOINTS, interfaces=STANDARD):
     ]
 
 
-class Bench:
+class Bench(ControllerBench):
     def __init__(self, robot=None, **values):
-        self.log = FakeLog()
-        self.controller = JointStateBroadcaster(ControllerContext('jsb', self.log, robot=robot))
         values = {'use_urdf_to_filter': robot is not None} | values
-        self.controller.configure(build(BroadcasterParameters, values))
-        outputs = self.controller.outputs()
-        self.sent, self.sent_dynamic = collect(outputs[0]), [collect(out) for out in outputs[1:]]
+        super().__init__('joint_state_broadcaster/JointStateBroadcaster', robot=robot, **values)
+        self.sent, *self.sent_dynamic = self.sent.values()
 
     def read(self, states):
-        self.controller.activate((), states, 0)
-        self.controller.update(10 * MS, 10 * MS)
+        self.time = 0
+        self.activate(states)
+        self.update()
         return self.sent[-1]
 
     def read_dynamic(self, states):

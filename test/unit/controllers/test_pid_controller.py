@@ -5,15 +5,13 @@
 import math
 
 import pytest
-from support.control_fakes import collect, FakeLog, MS
+from support.control_fakes import MS
+from support.controller_bench import ControllerBench
 
-from amr_description.control.contracts import ControllerContext
 from amr_description.control.dof_samples import DofCommandSample, SetBoolRequest
-from amr_description.control.interfaces import CommandInterface, NO_INTERFACES, StateInterface
-from amr_description.controllers.pid_controller import PidController, PidParameters
+from amr_description.control.interfaces import NO_INTERFACES
 from amr_description.errors import ControllerError, ParameterError
 from amr_description.log import Severity
-from amr_description.parameters import build
 
 PERIOD = 10 * MS
 VELOCITIES = {
@@ -25,33 +23,18 @@ VELOCITIES = {
 }
 
 
-class Bench:
+class Bench(ControllerBench):
     """A controller of which every state is 1.0 at first, activated."""
 
     def __init__(self, is_chained=False, **values):
-        self.log = FakeLog()
-        self.controller = PidController(ControllerContext('pid', self.log))
-        self.controller.configure(build(PidParameters, VELOCITIES | values))
+        super().__init__('pid_controller/PidController', name='pid', **VELOCITIES | values)
         self.controller.set_chained_mode(is_chained)
-        self.sent = {each.port.name: collect(each) for each in self.controller.outputs()}
-        for port in self.controller.inputs():
-            port.open()
-        self.activate()
-
-    def activate(self):
-        requests = self.controller.command_interfaces(), self.controller.state_interfaces()
-        self.commands = [CommandInterface(*n.split('/')) for n in requests[0].names]
-        self.states = [StateInterface(*n.split('/'), 1.0) for n in requests[1].names]
-        self.controller.activate(self.commands, self.states, 0)
+        self.activate(value=1.0)
 
     def refer(self, values, names=(), rates=()):
         self.controller.inputs()[0].put(
             DofCommandSample(tuple(names), tuple(values), tuple(rates))
         )
-
-    def update(self):
-        self.controller.update(PERIOD, PERIOD)
-        return [command.value for command in self.commands]
 
 
 def test_interfaces_references_and_states_are_those_of_the_original():

@@ -5,14 +5,12 @@
 import math
 
 import pytest
-from support.control_fakes import collect, FakeLog, MS
+from support.control_fakes import MS
+from support.controller_bench import ControllerBench
 
-from amr_description.control.contracts import ControllerContext
 from amr_description.control.interfaces import NO_INTERFACES, StateInterface
-from amr_description.controllers import CONTROLLERS
 from amr_description.errors import ControllerError
 from amr_description.log import Severity
-from amr_description.parameters import build
 
 WRENCH = 'force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster'
 POSE = 'pose_broadcaster/PoseBroadcaster'
@@ -20,29 +18,17 @@ BATTERY = 'battery_state_broadcaster/BatteryStateBroadcaster'
 POSES = {'pose_name': 'tool', 'frame_id': 'world'}
 
 
-class Bench:
+class Bench(ControllerBench):
     """A broadcaster, configured, with what it publishes by topic."""
-
-    def __init__(self, kind, **values):
-        found = CONTROLLERS.find(kind)
-        self.log = FakeLog()
-        self.controller = found(ControllerContext('it', self.log))
-        self.controller.configure(
-            build(found.parameters_type, {k.replace('__', '.'): v for k, v in values.items()})
-        )
-        self.sent = {each.port.name: collect(each) for each in self.controller.outputs()}
-        assert self.controller.command_interfaces() == NO_INTERFACES
 
     def read(self, *values):
         """Activate with these values of the states, update once, return the states."""
-        names = self.controller.state_interfaces().names
-        states = [
-            StateInterface(*name.rsplit('/', 1), value)
-            for name, value in zip(names, values, strict=True)
-        ]
-        self.controller.activate((), states, 0)
-        self.controller.update(10 * MS, 10 * MS)
-        return states
+        assert self.controller.command_interfaces() == NO_INTERFACES
+        self.activate()
+        for state, value in zip(self.states, values, strict=True):
+            state.value = value
+        self.update()
+        return self.states
 
 
 def test_a_wrench_is_offset_first_and_then_multiplied():
