@@ -16,11 +16,12 @@ module                         what it holds
 ``scan_matching.py``           a scan matched against a map: ``ScanMatcher``
 ``localization.py``            the same from scan to scan, with odometry: ``ScanTracker``
 
-=======
 ``footprint.py``               the robot seen from above, as a polygon
 ``costmap.py``                 what it costs to be in a cell: map, scan, inflation
 ``planner.py``                 a path over a costmap: A*, smoothed
 ``regulated_pure_pursuit.py``  the velocity that follows a path
+``behaviors.py``               turn, back up, drive straight, wait, assisted teleop
+``waypoints.py``               one goal after the other, some of which may be missed
 ``drive.py``                   a goal from the first step to the end: all of these together
 
 ``contract/``                  what Nav2 and slam_toolbox demand of a robot, as rules

@@ -117,6 +117,32 @@ class Costmap:
         """Forget what scans have seen."""
         self._change(np.zeros_like(self._obstacles))
 
+    def clear_square(self, center: Pose, side: float, *, inside: bool = True) -> None:
+        """Forget what scans have seen within a square of this side, m, or outside of it."""
+        half = 0.5 * abs(side)
+        corners = np.array(
+            [[center.x - half, center.y - half], [center.x + half, center.y + half]]
+        )
+        (first, last) = np.clip(self.cells_of(corners), 0, np.array(self._static.shape))
+        is_square = np.zeros_like(self._obstacles)
+        is_square[first[0] : last[0] + 1, first[1] : last[1] + 1] = True
+        self._change(self._obstacles & (~is_square if inside else is_square))
+
+    def window(self, center: Pose, side: float) -> tuple[Costs, Pose]:
+        """Return the costs within a square of this side, m, and the pose of its first corner."""
+        row, column = self.grid.cell_of(center.x, center.y)
+        half = max(1, round(0.5 * side / self.resolution))
+        height, width = self._static.shape
+        rows = slice(min(max(row - half, 0), height), min(max(row + half, 0), height))
+        columns = slice(min(max(column - half, 0), width), min(max(column + half, 0), width))
+        origin = self.grid.origin
+        corner = Pose(
+            origin.x + columns.start * self.resolution,
+            origin.y + rows.start * self.resolution,
+            0.0,
+        )
+        return self.costs[rows, columns], corner
+
     def cells_of(self, points: Points) -> NDArray[np.intp]:
         """Return (n, 2) row and column of points (n, 2) of the map frame; maybe outside."""
         corner = (self.grid.origin.x, self.grid.origin.y)

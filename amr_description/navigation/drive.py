@@ -11,14 +11,20 @@ is forgotten and all is tried again; then, in turn, turn on the spot, wait, back
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from enum import Enum
 import math
 
 from amr_description.errors import NavigationError
 from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation import planner
+from amr_description.navigation.behaviors import (
+    Behavior,
+    DriveStatus,
+    RECOVERIES,
+    RecoverySettings,
+    WheelCommand,
+)
 from amr_description.navigation.costmap import Costmap, INSCRIBED
-from amr_description.navigation.footprint import placed, Points
+from amr_description.navigation.footprint import Points
 from amr_description.navigation.planner import PlannerSettings
 from amr_description.navigation.regulated_pure_pursuit import (
     NO_VALID_CONTROL,
@@ -26,100 +32,6 @@ from amr_description.navigation.regulated_pure_pursuit import (
     RegulatedPurePursuit,
 )
 from amr_description.parameters import group, parameter
-
-
-@dataclass(frozen=True)
-class RecoverySettings:
-    """Parameters, by the names of Nav2's behavior server and of its behavior tree."""
-
-    spin_dist: float = parameter(1.57, 'Angle of a spin', unit='rad', minimum=0.0)
-    rotational_vel: float = parameter(0.8, 'Of a spin', unit='rad/s', minimum=0.01)
-    wait_duration: float = parameter(5.0, 'Of a wait', unit='s', minimum=0.0)
-    backup_dist: float = parameter(0.3, 'How far it backs up', unit='m', minimum=0.0)
-    backup_speed: float = parameter(0.15, 'How fast', unit='m/s', minimum=0.01)
-    time_allowance: float = parameter(10.0, 'Of a spin or a backup', unit='s', minimum=0.0)
-    simulate_ahead_time: float = parameter(
-        2.0, 'How far ahead collisions are looked for', unit='s', minimum=0.0
-    )
-
-
-class Recovery:
-    """One attempt."""
-
-    def __init__(
-        self, settings: RecoverySettings, outline: Points, pose: Pose, now: float
-    ) -> None:
-        """Begin: ``outline`` (n, 2), m, of the robot at ``pose``, at ``now``, s."""
-        self.settings = settings
-        self._outline = outline
-        self._began = now
-        self._first = self._last = pose
-
-    def step(self, now: float, pose: Pose, costmap: Costmap) -> tuple[float, float] | None:
-        """Return the velocity, m/s and rad/s; None when it is over, or nothing more is safe."""
-        raise NotImplementedError
-
-    def _is_late(self, now: float) -> bool:
-        return now - self._began > self.settings.time_allowance
-
-    def _is_safe(
-        self, pose: Pose, linear: float, angular: float, left: float, costmap: Costmap
-    ) -> bool:
-        """Return whether the robot stays free for ``left`` s, as far as it is looked at."""
-        seconds = min(left, self.settings.simulate_ahead_time)
-        count = max(
-            1, math.ceil(seconds * (abs(linear) + 0.5 * abs(angular)) / costmap.resolution)
-        )
-        moved = (
-            pose.compose(Pose(linear * seconds * k / count, 0.0, angular * seconds * k / count))
-            for k in range(1, count + 1)
-        )
-        return not any(costmap.is_blocked(placed(self._outline, each)) for each in moved)
-
-
-class Spin(Recovery):
-    """Turn on the spot, which lets the lidar see anew."""
-
-    _turned = 0.0
-
-    def step(self, now: float, pose: Pose, costmap: Costmap) -> tuple[float, float] | None:
-        """Return the velocity; see :meth:`Recovery.step`."""
-        self._turned += wrapped(pose.yaw - self._last.yaw)
-        self._last = pose
-        left = self.settings.spin_dist - self._turned
-        rate = min(self.settings.rotational_vel, math.sqrt(2.0 * 3.2 * max(left, 0.0)))
-        if left <= 0.01 or self._is_late(now):
-            return None
-        if not self._is_safe(pose, 0.0, rate, left / rate, costmap):
-            return None
-        return 0.0, rate
-
-
-class Wait(Recovery):
-    """Stand still until somebody has gone away."""
-
-    def step(self, now: float, pose: Pose, costmap: Costmap) -> tuple[float, float] | None:
-        """Return the velocity; see :meth:`Recovery.step`."""
-        return (0.0, 0.0) if now - self._began < self.settings.wait_duration else None
-
-
-class BackUp(Recovery):
-    """Drive straight back."""
-
-    def step(self, now: float, pose: Pose, costmap: Costmap) -> tuple[float, float] | None:
-        """Return the velocity; see :meth:`Recovery.step`."""
-        left = self.settings.backup_dist - pose.distance(self._first)
-        speed = self.settings.backup_speed
-        if left <= 0.0 or self._is_late(now):
-            return None
-        if not self._is_safe(pose, -speed, 0.0, left / speed, costmap):
-            return None
-        return -speed, 0.0
-
-
-RECOVERIES: tuple[type[Recovery], ...] = (Spin, Wait, BackUp)
-"""In the order in which they are tried."""
-
 
 PATIENCE_EXCEEDED = 104
 FAILED_TO_MAKE_PROGRESS = 105
@@ -169,26 +81,6 @@ class NavigationDriveSettings:
     recoveries: RecoverySettings = group('behaviors', RecoverySettings)
 
 
-class DriveStatus(Enum):
-    """How a drive is going."""
-
-    RUNNING = 'running'
-    SUCCEEDED = 'succeeded'
-    FAILED = 'failed'
-
-
-@dataclass
-class WheelCommand:
-    """What the wheels shall do now."""
-
-    linear: float = 0.0
-    """m/s"""
-    angular: float = 0.0
-    """rad/s"""
-    lookahead: Pose | None = None
-    """What it drives to, in the frame of the map; None while it does not follow a path."""
-
-
 @dataclass
 class NavigationDrive:
     """
@@ -227,7 +119,7 @@ class NavigationDrive:
         self._marker: tuple[Pose, float] | None = None
         self._unsafe_since: float | None = None
         self._cleared = False
-        self._recovery: Recovery | None = None
+        self._recovery: Behavior | None = None
 
     @property
     def goal(self) -> Pose:

@@ -72,6 +72,14 @@ def plan(costmap: Costmap, start: Pose, goal: Pose, settings: PlannerSettings) -
     return _turned(_smoothed(costmap, points, settings), goal)
 
 
+def smoothed(costmap: Costmap, path: list[Pose], settings: PlannerSettings) -> list[Pose]:
+    """Return a path smoothed, its ends where they are and its poses turned along it."""
+    if len(path) < 3:
+        return path
+    points = np.array([(each.x, each.y) for each in path])
+    return _turned(_smoothed(costmap, points, settings), path[-1])
+
+
 def _text(pose: Pose) -> str:
     return f'({pose.x:.2f}, {pose.y:.2f})'
 

@@ -96,6 +96,7 @@ def write(grid: OccupancyGrid, name: Path) -> None:
 
 def publish(grid: OccupancyGrid, args: list[str]) -> int:
     """Publish a map until asked to stop; return the exit code."""
+    from nav2_msgs.srv import LoadMap
     from rclpy.node import Node
 
     from amr_description.navigation.ros.map_service import MapService
@@ -108,6 +109,8 @@ def publish(grid: OccupancyGrid, args: list[str]) -> int:
         service = MapService(node, parameters.topic_name, parameters.frame_id)
         service.take(grid)
         service.publish()
+        if node.resolve_topic_name(parameters.topic_name).endswith('/map'):  # not a map beside it
+            node.create_service(LoadMap, 'map_server/load_map', service.load)
         node.get_logger().info(
             f'Published a map of {grid.width} x {grid.height} cells of {grid.resolution:g} m'
         )

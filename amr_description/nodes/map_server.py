@@ -30,24 +30,17 @@ There is no bond to the lifecycle manager: set its ``bond_timeout`` to 0.0.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 import sys
 
 from nav2_msgs.srv import LoadMap
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.service import Service
 
-from amr_description.ament_index import resolve_uri
 from amr_description.errors import (
     AmrError,
-    MapDataError,
-    MapError,
-    MapMetadataError,
     ParameterError,
 )
-from amr_description.maps.grid import OccupancyGrid
-from amr_description.maps.map_files import load_map
-from amr_description.navigation.ros.map_service import MapService
+from amr_description.navigation.ros.map_service import map_of, MapService
 from amr_description.parameters import parameter
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare, values
@@ -99,7 +92,7 @@ class MapServer(LifecycleNode):
             return _FAILURE
         try:
             if name := parameters.yaml_filename:
-                service.take(_load(name, by_request=name != self._own))
+                service.take(map_of(name, by_request=name != self._own))
             else:
                 self.get_logger().info(
                     "yaml-filename parameter is empty, set map through 'load_map'-service"
@@ -112,7 +105,7 @@ class MapServer(LifecycleNode):
             )
             return _FAILURE
         self._map = service
-        self._load_service = self.create_service(LoadMap, '~/load_map', self._load_map)
+        self._load_service = self.create_service(LoadMap, '~/load_map', service.load)
         return _SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -152,43 +145,6 @@ class MapServer(LifecycleNode):
             self._map.destroy()
             self.destroy_service(self._load_service)
             self._map = self._load_service = None
-
-    def _load_map(self, request: LoadMap.Request, response: LoadMap.Response) -> LoadMap.Response:
-        """Read the map of a file, and publish it in place of the present one."""
-        if not self._is_active or self._map is None:
-            self.get_logger().warning(
-                'Received LoadMap request but not in ACTIVE state, ignoring!'
-            )
-            response.result = LoadMap.Response.RESULT_UNDEFINED_FAILURE
-            return response
-        self.get_logger().info('Handling LoadMap request')
-        try:
-            self._map.take(_load(request.map_url, by_request=True))
-        except AmrError as error:
-            self.get_logger().error(f'Failed to load map yaml file: {request.map_url}: {error}')
-            response.result = _result(error)
-            return response
-        self._map.publish()
-        response.map = self._map.message
-        response.result = LoadMap.Response.RESULT_SUCCESS
-        return response
-
-
-def _load(url: str, *, by_request: bool) -> OccupancyGrid:
-    """Return the map of a path, or of a URI. Raises AmrError."""
-    if not url:
-        raise MapError('the name of the .yaml file of a map is asked, and it is empty')
-    path = resolve_uri(url) if '://' in url else Path(url)
-    return load_map(path, by_request=by_request)
-
-
-def _result(error: AmrError) -> int:
-    """Return the result of ~/load_map for an error."""
-    if isinstance(error, MapDataError):
-        return int(LoadMap.Response.RESULT_INVALID_MAP_DATA)
-    if isinstance(error, MapMetadataError):
-        return int(LoadMap.Response.RESULT_INVALID_MAP_METADATA)
-    return int(LoadMap.Response.RESULT_MAP_DOES_NOT_EXIST)
 
 
 def _make_node() -> MapServer:

@@ -17,8 +17,24 @@ actions                                 ``nav2_msgs/action``   of Nav2's
 ``navigate_to_pose``                    NavigateToPose         bt_navigator
 ``navigate_through_poses``              NavigateThroughPoses   bt_navigator
 ``compute_path_to_pose``                ComputePathToPose      planner_server
+``compute_path_through_poses``          ComputePath…           planner_server
+``smooth_path``                         SmoothPath             smoother_server
 ``follow_path``                         FollowPath             controller_server
+``follow_waypoints``                    FollowWaypoints        waypoint_follower
+``spin``, ``backup``,                   Spin, BackUp,          behavior_server
+``drive_on_heading``, ``wait``,         DriveOnHeading, Wait,
+``assisted_teleop``                     AssistedTeleop
 ======================================  =====================  ===================================
+
+Goals of ``follow_gps_waypoints``, ``dock_robot`` and ``undock_robot`` are refused at once.
+
+======================================  ==========================================================
+services
+======================================  ==========================================================
+``bt_navigator/get_state`` …            active once it can drive; of each of these servers
+``…_costmap/clear_…``                   forgets what scans have seen; of the global and local one
+``…_costmap/get_costmap``               the costs; local: 3 m x 3 m around the robot
+======================================  ==========================================================
 
 ======================================  =====================  ===================================
 subscribes to                           type                   QoS
@@ -28,6 +44,7 @@ subscribes to                           type                   QoS
 ``scan``                                LaserScan              best effort, depth 5
 ``odom``                                Odometry               reliable
 ``/tf``, ``/tf_static``                 TFMessage              as tf2_ros has it
+``cmd_vel_teleop``, ``preempt_teleop``  as cmd_vel, Empty      for ``assisted_teleop``
 ======================================  =====================  ===================================
 
 ======================================  =====================  ===================================
@@ -57,14 +74,20 @@ from geometry_msgs.msg import (
     TwistStamped,
 )
 from nav2_msgs.action import (
+    ComputePathThroughPoses,
     ComputePathToPose,
+    DockRobot,
+    FollowGPSWaypoints,
     FollowPath,
+    FollowWaypoints,
     NavigateThroughPoses,
     NavigateToPose,
+    SmoothPath,
+    UndockRobot,
 )
+from nav2_msgs.msg import MissedWaypoint
 from nav_msgs.msg import OccupancyGrid as OccupancyGridMessage, Path
 import numpy as np
-from rclpy.duration import Duration
 from rclpy.node import Node
 from std_msgs.msg import Header
 
@@ -72,13 +95,9 @@ from amr_description.errors import NavigationError
 from amr_description.maps.grid import OccupancyGrid, UNKNOWN
 from amr_description.maps.pose import Pose
 from amr_description.navigation import planner
+from amr_description.navigation.behaviors import BehaviorDrive, DriveStatus, WheelCommand
 from amr_description.navigation.costmap import Costmap, INSCRIBED, LETHAL, NO_INFORMATION
-from amr_description.navigation.drive import (
-    DriveStatus,
-    NavigationDrive,
-    NavigationDriveSettings,
-    WheelCommand,
-)
+from amr_description.navigation.drive import NavigationDrive, NavigationDriveSettings
 from amr_description.navigation.footprint import (
     inscribed_radius,
     outline,
@@ -86,18 +105,22 @@ from amr_description.navigation.footprint import (
     Points,
     read_footprint,
 )
+from amr_description.navigation.ros.behavior_servers import BehaviorServers, duration, feedback_of
+from amr_description.navigation.ros.costmap_services import CostmapServices
 from amr_description.navigation.ros.goals import (
     NavigationGoal,
     NavigationGoalServer,
     UNKNOWN_ERROR,
 )
+from amr_description.navigation.ros.managed_names import ManagedNames
 from amr_description.navigation.ros.messages import grid_message, pose_message
 from amr_description.navigation.ros.surroundings import (
     Surroundings,
     SurroundingsSettings,
     TF_ERROR,
 )
-from amr_description.parameters import parameter
+from amr_description.navigation.waypoints import WaypointDrive, WaypointSettings
+from amr_description.parameters import group, parameter
 from amr_description.ros.firewall import reason_of
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import add_validation_callback, declare, values
@@ -108,13 +131,31 @@ _PURPOSE = 'Drive to goals around what map and scan show: /navigate_to_pose, /go
 _PATIENCE = 5.0
 """s without a usable pose or scan before a goal is given up."""
 _FEEDBACK_PERIOD = 0.1
-_LONGEST = float(2**31 - 1)
-"""s that a duration of a message has room for."""
 _COSTMAP_PERIOD = 1.0
 _CIRCLE = 16
 """Corners of the footprint of a robot that is given by its radius, as in nav2_costmap_2d."""
 _OUTLINE_SPACING = 0.025
-_INVALID_PATH = 103
+_INVALID_PATH, _NOTHING_TO_SMOOTH, _NO_VIAPOINTS, _BAD_WAYPOINTS = 103, 505, 309, 600
+_THROUGH = 100
+"""Codes of ComputePathThroughPoses are those of ComputePathToPose and this."""
+_SERVERS = (
+    'bt_navigator',
+    'planner_server',
+    'controller_server',
+    'smoother_server',
+    'behavior_server',
+    'waypoint_follower',
+)
+"""Nodes of Nav2 in whose place it is."""
+_ABSENT = {
+    'follow_gps_waypoints': (
+        FollowGPSWaypoints,
+        'there is no GPS here that the map is bound to; follow_waypoints takes poses of the map',
+    ),
+    'dock_robot': (DockRobot, 'there are no docks here; navigate_to_pose drives to a pose'),
+    'undock_robot': (UndockRobot, 'there are no docks here; backup drives straight back'),
+}
+"""Actions of which all goals are refused, for clients that wait until there is a server."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +169,7 @@ class NavigatorParameters(SurroundingsSettings, NavigationDriveSettings):
         '[]', 'Corners of the robot, m: "[[0.3, 0.2], …]"; []: robot_radius', read_only=True
     )
     robot_radius: float = parameter(0.1, 'Of a round robot', unit='m', above=0.0, read_only=True)
+    waypoint_follower: WaypointSettings = group('waypoint_follower', WaypointSettings)
 
 
 class NavigatorNode(Node):
@@ -141,7 +183,7 @@ class NavigatorNode(Node):
         self._surroundings = Surroundings(self, self._settings, inscribed_radius(self._corners))
         self._publish_to()
         self._goal: NavigationGoal | None = None
-        self._drive: NavigationDrive | None = None
+        self._drive: NavigationDrive | WaypointDrive | BehaviorDrive | None = None
         self._stopped_since: float | None = None
         self._said = self._last = -math.inf
         self._plans = 0
@@ -153,8 +195,28 @@ class NavigatorNode(Node):
             NavigationGoalServer(
                 self, ComputePathToPose, 'compute_path_to_pose', self._compute_path
             ),
+            NavigationGoalServer(
+                self, ComputePathThroughPoses, 'compute_path_through_poses', self._compute_through
+            ),
+            NavigationGoalServer(self, SmoothPath, 'smooth_path', self._smooth),
             NavigationGoalServer(self, FollowPath, 'follow_path', self._begin_follow),
+            NavigationGoalServer(self, FollowWaypoints, 'follow_waypoints', self._begin_waypoints),
+            *(
+                NavigationGoalServer(self, kind, name, self._refuse_all, absent=why)
+                for name, (kind, why) in _ABSENT.items()
+            ),
+            *BehaviorServers(
+                self,
+                self._outline,
+                lambda: self._settings.recoveries,
+                self._start,
+                is_stamped=self._settings.enable_stamped_cmd_vel,
+            ).servers,
         ]
+        self._names = ManagedNames(self, _SERVERS, lambda: not self._surroundings.fault())
+        self._costmap_services = CostmapServices(
+            self, self._surroundings, self._settings.global_frame
+        )
         self.create_subscription(PoseStamped, 'goal_pose', self._hear_goal, 10)
         self.create_timer(1.0 / self._settings.controller_frequency, self._step)
         self.create_timer(_COSTMAP_PERIOD, self._publish_costmap)
@@ -219,59 +281,120 @@ class NavigatorNode(Node):
         except NavigationError as error:
             self._refuse(goal, error)
             return
-        self._start(goal, NavigationDrive(self._settings, self._outline, goals))
+        self._start_to(goal, NavigationDrive(self._settings, self._outline, goals))
 
     def _begin_follow(self, goal: NavigationGoal) -> None:
-        try:
-            path = goal.request.path
-            poses = []
-            for each in path.poses:
-                each.header.frame_id = each.header.frame_id or path.header.frame_id
-                poses.append(self._surroundings.goal(each))
-            if not poses:
-                raise NavigationError(_INVALID_PATH, 'the path has no poses')
-        except NavigationError as error:
-            self._refuse(goal, error)
-            return
-        self._start(
+        poses = self._poses_of(goal.request.path)
+        if not poses:
+            raise NavigationError(_INVALID_PATH, 'the path has no poses')
+        self._start_to(
             goal, NavigationDrive(self._settings, self._outline, [poses[-1]], given_path=poses)
         )
 
-    def _start(self, goal: NavigationGoal, drive: NavigationDrive) -> None:
+    def _begin_waypoints(self, goal: NavigationGoal) -> None:
+        request = goal.request
+        waypoints = [self._surroundings.goal(each) for each in request.poses]
+        if request.goal_index >= len(waypoints):
+            raise NavigationError(
+                _BAD_WAYPOINTS,
+                f'there are {len(waypoints)} waypoints, and it is to begin with number '
+                f'{request.goal_index}, counted from 0',
+            )
+
+        def make(target: Pose) -> NavigationDrive:
+            return NavigationDrive(self._settings, self._outline, [target])
+
+        drive = WaypointDrive(
+            self._settings.waypoint_follower,
+            waypoints,
+            make,
+            index=request.goal_index,
+            loops=request.number_of_loops,
+        )
+        self._start(
+            goal, drive, f'Received follow waypoint request with {len(waypoints)} waypoints.'
+        )
+
+    def _start_to(self, goal: NavigationGoal, drive: NavigationDrive) -> None:
+        target = drive.goals[-1]
+        text = f'Begin navigating to ({target.x:.2f}, {target.y:.2f}), yaw {target.yaw:.2f}'
+        self._start(goal, drive, text)
+
+    def _start(
+        self,
+        goal: NavigationGoal,
+        drive: NavigationDrive | WaypointDrive | BehaviorDrive,
+        text: str,
+    ) -> None:
         if self._drive is not None:
             self._end_drive(None)
         self._goal, self._drive = goal, drive
         self._plans = 0
         self._stopped_since = None
         self._last = -math.inf
-        target = drive.goals[-1]
-        self.get_logger().info(
-            f'Begin navigating to ({target.x:.2f}, {target.y:.2f}), yaw {target.yaw:.2f}'
-        )
+        self.get_logger().info(text)
 
     def _refuse(self, goal: NavigationGoal, error: NavigationError) -> None:
         self.get_logger().error(f'{error} (error code {error.error_code})')
         goal.abort(error)
 
+    def _refuse_all(self, goal: NavigationGoal) -> None:
+        raise NavigationError(UNKNOWN_ERROR, 'it is not here')
+
+    def _poses_of(self, path: Path) -> list[Pose]:
+        """Return the poses of a path in the frame of the map. Raises NavigationError."""
+        poses = []
+        for each in path.poses:
+            each.header.frame_id = each.header.frame_id or path.header.frame_id
+            poses.append(self._surroundings.goal(each))
+        return poses
+
+    # --- paths, without driving ---------------------------------------------------------------
+
     def _compute_path(self, goal: NavigationGoal) -> None:
         """Plan and answer; the robot does not move."""
-        request = goal.request
         began = self.get_clock().now()
+        path = self._plan(goal.request, [goal.request.goal])
+        self._answer_path(goal, path, planning_time=(self.get_clock().now() - began).to_msg())
+
+    def _compute_through(self, goal: NavigationGoal) -> None:
+        began = self.get_clock().now()
+        if not goal.request.goals:
+            raise NavigationError(_NO_VIAPOINTS, 'there are no poses to plan through')
         try:
-            costmap = self._costmap()
-            start = (
-                self._surroundings.goal(request.start)
-                if request.use_start
-                else self._surroundings.pose()
-            )
-            target = self._surroundings.goal(request.goal)
-            path = planner.plan(costmap, start, target, self._settings.planner)
+            path = self._plan(goal.request, goal.request.goals)
         except NavigationError as error:
-            self._refuse(goal, error)
-            return
+            raise NavigationError(error.error_code + _THROUGH, str(error)) from error
+        self._answer_path(goal, path, planning_time=(self.get_clock().now() - began).to_msg())
+
+    def _plan(self, request: Any, targets: list[PoseStamped]) -> list[Pose]:
+        """Return a path from start to the last of these. Raises NavigationError."""
+        costmap = self._costmap()
+        start = (
+            self._surroundings.goal(request.start)
+            if request.use_start
+            else self._surroundings.pose()
+        )
+        path: list[Pose] = []
+        for target in targets:
+            end = self._surroundings.goal(target)
+            path += planner.plan(costmap, start, end, self._settings.planner)
+            start = end
+        return path
+
+    def _smooth(self, goal: NavigationGoal) -> None:
+        began = self.get_clock().now()
+        poses = self._poses_of(goal.request.path)
+        if not poses:
+            raise NavigationError(_NOTHING_TO_SMOOTH, 'the path has no poses')
+        path = planner.smoothed(self._costmap(), poses, self._settings.planner)
+        took = (self.get_clock().now() - began).to_msg()
+        self._answer_path(goal, path, smoothing_duration=took, was_completed=True)
+
+    def _answer_path(self, goal: NavigationGoal, path: list[Pose], **fields: Any) -> None:
         message = self._path_message(path)
         self._paths.publish(message)
-        goal.succeed(path=message, planning_time=(self.get_clock().now() - began).to_msg())
+        goal.succeed(path=message, **fields)
 
     def _costmap(self) -> Costmap:
         """Return the costmap. Raises NavigationError: there is no map."""
@@ -298,7 +421,7 @@ class NavigatorNode(Node):
         if goal.is_cancel_requested:
             self._command(WheelCommand())
             self._drive = None
-            goal.cancel()
+            goal.cancel(**self._result(drive))
             self.get_logger().info('Goal canceled')
             return
         if now < self._last:
@@ -335,14 +458,40 @@ class NavigatorNode(Node):
             return
         if drive.status is DriveStatus.SUCCEEDED:
             self.get_logger().info('Goal succeeded')
-            goal.succeed()
+            goal.succeed(**self._result(drive))
         else:
             if error is not None:
                 self.get_logger().error(f'Goal failed: {error} (error code {error.error_code})')
-            goal.abort(error)
+            goal.abort(error, **self._result(drive))
+
+    def _result(self, drive: NavigationDrive | WaypointDrive | BehaviorDrive) -> dict[str, Any]:
+        """Return the fields of the result, beside those of an error."""
+        if isinstance(drive, BehaviorDrive):
+            now = self._surroundings.now
+            return {
+                'total_elapsed_time': duration(
+                    0.0 if drive.started is None else now - drive.started
+                )
+            }
+        if not isinstance(drive, WaypointDrive):
+            return {}
+        header = self._header()
+        missed = [
+            MissedWaypoint(
+                index=index,
+                goal=PoseStamped(header=header, pose=pose_message(drive.waypoints[index])),
+                error_code=error.error_code,
+            )
+            for index, error in drive.missed
+        ]
+        return {'missed_waypoints': missed}
 
     def _report(
-        self, drive: NavigationDrive, goal: NavigationGoal, now: float, pose: Pose
+        self,
+        drive: NavigationDrive | WaypointDrive | BehaviorDrive,
+        goal: NavigationGoal,
+        now: float,
+        pose: Pose,
     ) -> None:
         """Publish the path if it is new, and feedback ten times a second."""
         if drive.plans != self._plans:
@@ -351,7 +500,13 @@ class NavigatorNode(Node):
         if 0.0 <= now - self._said < _FEEDBACK_PERIOD - 1e-6 or goal.server is None:
             return
         self._said = now
-        goal.feed(**self._feedback(drive, goal.server.type, now, pose))
+        if isinstance(drive, BehaviorDrive):
+            if drive.behavior is not None:
+                goal.feed(**feedback_of(goal.server.type, drive.behavior))
+        elif isinstance(drive, WaypointDrive):
+            goal.feed(current_waypoint=drive.index)
+        else:
+            goal.feed(**self._feedback(drive, goal.server.type, now, pose))
 
     def _feedback(
         self, drive: NavigationDrive, kind: Any, now: float, pose: Pose
@@ -363,10 +518,8 @@ class NavigatorNode(Node):
         began = now if drive.started is None else drive.started
         fields = {
             'current_pose': current,
-            'navigation_time': Duration(seconds=now - began).to_msg(),
-            'estimated_time_remaining': Duration(
-                seconds=min(left / max(self._surroundings.speed[0], 0.1), _LONGEST)
-            ).to_msg(),
+            'navigation_time': duration(now - began),
+            'estimated_time_remaining': duration(left / max(self._surroundings.speed[0], 0.1)),
             'number_of_recoveries': drive.recoveries,
             'distance_remaining': left,
         }

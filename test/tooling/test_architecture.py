@@ -33,15 +33,15 @@ FEW_LINES = 80
 # the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
 # motions, the geometry of plugins, dialects of vendors, what lidars see of them), and trials with
 # their faults and seeds, robots as environments to learn in, arms of plugins that are tried by
-# their topics, and patience with a simulator that works.
+# their topics, and what clients of Nav2's servers ask a navigator.
 BUDGETS = {
-    'modules': 818,
-    'code lines': 93_429,
+    'modules': 823,
+    'code lines': 94_051,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 26,
-    'code lines of helpers in test files': 26_130,
+    'code lines of helpers in test files': 26_214,
 }
 
 BASE = {

@@ -14,6 +14,9 @@ module                  what it holds
 ``transform_queue.py``  messages that wait for the transform at their stamp
 ``entity_mover.py``     puts a robot somewhere else in its simulator
 
+``managed_names.py``    ``get_state`` under the names of Nav2's lifecycle nodes
+``costmap_services.py`` costmaps: what they are, what is forgotten of them
+``behavior_servers.py`` ``spin``, ``backup``, ``drive_on_heading``, ``wait``, ``assisted_teleop``
 ``goals.py``            action servers that take one goal at a time
 ``surroundings.py``     map, scan, pose and speed for who drives
 

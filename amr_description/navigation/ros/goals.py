@@ -39,13 +39,14 @@ class NavigationGoal:
         """End well, with these fields of the result."""
         self._end(GoalEvent.SUCCEED, **fields)
 
-    def cancel(self) -> None:
-        """End as the client has wished."""
-        self._end(GoalEvent.CANCELED)
+    def cancel(self, **fields: Any) -> None:
+        """End as the client has wished, with these fields of the result."""
+        self._end(GoalEvent.CANCELED, **fields)
 
-    def abort(self, error: NavigationError | None = None) -> None:
+    def abort(self, error: NavigationError | None = None, **fields: Any) -> None:
         """End with an error; None: another goal has come."""
-        fields = {} if error is None else {'error_code': error.error_code, 'error_msg': str(error)}
+        if error is not None:
+            fields |= {'error_code': error.error_code, 'error_msg': str(error)}
         self._end(GoalEvent.ABORT, **fields)
 
     def _end(self, event: GoalEvent, **fields: Any) -> None:
@@ -57,7 +58,13 @@ class NavigationGoalServer:
     """The server of one action."""
 
     def __init__(
-        self, node: Node, action_type: Any, name: str, begin: Callable[[NavigationGoal], object]
+        self,
+        node: Node,
+        action_type: Any,
+        name: str,
+        begin: Callable[[NavigationGoal], object],
+        *,
+        absent: str = '',
     ) -> None:
         """
         Serve.
@@ -66,8 +73,11 @@ class NavigationGoalServer:
             node: has the action.
             action_type: of ``nav2_msgs.action``.
             name: of the action.
-            begin: called with each goal, in the executor; it ends the goal then or later.
+            begin: called with each goal, in the executor; it ends the goal then or later. What it
+                raises as NavigationError is the goal's result.
+            absent: why all goals are refused; empty: they are not.
         """
+        self._absent = absent
         self.type = action_type
         self._begin = begin
         self._logger = node.get_logger()
@@ -92,6 +102,9 @@ class NavigationGoalServer:
 
     def _decide(self, request: Any) -> GoalResponse:
         self._standing.set_time()
+        if self._absent:
+            self._logger.error(f'goal refused: {self._absent}')
+            return GoalResponse.REJECT
         if getattr(request, 'behavior_tree', ''):
             self._logger.error(
                 f'goal refused: behavior_tree is {request.behavior_tree!r}, and there are no '
@@ -105,6 +118,9 @@ class NavigationGoalServer:
         goal = NavigationGoal(self, handle, handle.request)
         try:
             self._begin(goal)
+        except NavigationError as error:
+            self._logger.error(f'{error} (error code {error.error_code})')
+            goal.abort(error)
         except Exception as error:  # whatever is in the goal: its client hears of it
             if handle.is_active:
                 goal.abort(NavigationError(UNKNOWN_ERROR, reason_of(error)))

@@ -23,6 +23,7 @@ from rclpy.node import Node
 from amr_description.clock import NANOSECONDS
 from amr_description.maps.pose import Pose
 from amr_description.model.frames import quaternion_from_yaw, Transform
+from amr_description.navigation.ros.managed_names import ManagedNames
 from amr_description.navigation.ros.messages import is_place, pose_message
 from amr_description.ros.messages import fill_stamp
 from amr_description.ros.qos import LATCHED
@@ -63,6 +64,7 @@ class LocalizerTopics:
         self._broadcasts = broadcasts
         self._broadcaster = TransformBroadcaster(node)
         self._pose = node.create_publisher(PoseWithCovarianceStamped, 'amcl_pose', LATCHED)
+        self._names = ManagedNames(node, ['amcl'], lambda: True)
         self._on_initial_pose = on_initial_pose
         node.create_subscription(PoseWithCovarianceStamped, 'initialpose', self._hear, 10)
         self._latest = -1

@@ -3,12 +3,17 @@
 """A map as map_server offers it: latched on a topic, and by a service of the node."""
 
 from collections.abc import Callable
+from pathlib import Path
 
+from nav2_msgs.srv import LoadMap
 from nav_msgs.msg import OccupancyGrid as OccupancyGridMessage
 from nav_msgs.srv import GetMap
 from rclpy.node import Node
 
+from amr_description.ament_index import resolve_uri
+from amr_description.errors import AmrError, MapDataError, MapError, MapMetadataError
 from amr_description.maps.grid import OccupancyGrid
+from amr_description.maps.map_files import load_map
 from amr_description.navigation.ros.messages import grid_message
 from amr_description.ros.qos import LATCHED
 
@@ -66,3 +71,39 @@ class MapService:
         self._node.get_logger().info('Handling GetMap request')
         response.map = self.message
         return response
+
+    def load(self, request: LoadMap.Request, response: LoadMap.Response) -> LoadMap.Response:
+        """Read the map of a file, and publish it in place of the present one: of a service."""
+        logger = self._node.get_logger()
+        if not self._is_active():
+            logger.warning('Received LoadMap request but not in ACTIVE state, ignoring!')
+            response.result = LoadMap.Response.RESULT_UNDEFINED_FAILURE
+            return response
+        logger.info('Handling LoadMap request')
+        try:
+            self.take(map_of(request.map_url, by_request=True))
+        except AmrError as error:
+            logger.error(f'Failed to load map yaml file: {request.map_url}: {error}')
+            response.result = _result(error)
+            return response
+        self.publish()
+        response.map = self.message
+        response.result = LoadMap.Response.RESULT_SUCCESS
+        return response
+
+
+def map_of(url: str, *, by_request: bool) -> OccupancyGrid:
+    """Return the map of a path, or of a URI. Raises AmrError."""
+    if not url:
+        raise MapError('the name of the .yaml file of a map is asked, and it is empty')
+    path = resolve_uri(url) if '://' in url else Path(url)
+    return load_map(path, by_request=by_request)
+
+
+def _result(error: AmrError) -> int:
+    """Return the result of loading a map for an error."""
+    if isinstance(error, MapDataError):
+        return int(LoadMap.Response.RESULT_INVALID_MAP_DATA)
+    if isinstance(error, MapMetadataError):
+        return int(LoadMap.Response.RESULT_INVALID_MAP_METADATA)
+    return int(LoadMap.Response.RESULT_MAP_DOES_NOT_EXIST)

@@ -15,9 +15,9 @@ from support.warehouse_goals import (
 )
 
 from amr_description.maps.pose import Pose, wrapped
+from amr_description.navigation.behaviors import DriveStatus
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.drive import (
-    DriveStatus,
     GoalCheckerSettings,
     NavigationDrive,
     NavigationDriveSettings,

@@ -10,15 +10,14 @@ import pytest
 
 from amr_description.maps.grid import OccupancyGrid, OCCUPIED
 from amr_description.maps.pose import Pose, wrapped
+from amr_description.navigation.behaviors import DriveStatus, WheelCommand
 from amr_description.navigation.costmap import Costmap, CostmapSettings
 from amr_description.navigation.drive import (
-    DriveStatus,
     FAILED_TO_MAKE_PROGRESS,
     GoalCheckerSettings,
     NavigationDrive,
     NavigationDriveSettings,
     PATIENCE_EXCEEDED,
-    WheelCommand,
 )
 from amr_description.navigation.footprint import outline, placed
 from amr_description.navigation.planner import GOAL_OCCUPIED, GOAL_OUTSIDE_MAP, NO_VALID_PATH
