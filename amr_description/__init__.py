@@ -19,6 +19,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``ament_copyright/``    the linter of copyright notices, as ``import ament_copyright``
 ``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph
 ``maps/``               occupancy grids and their files
+``nav2_simple_commander/`` ``BasicNavigator``: what programs in Python ask Nav2 for
 ``navigation/``         paths and filters; in ``navigation/ros/`` their topics
 ``cdr/``                messages of ROS as the bytes that DDS sends and bags have, without ROS
 ``bag/``                recordings of topics: MCAP files; in ``bag/ros/`` recorder and player

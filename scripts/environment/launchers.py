@@ -26,8 +26,8 @@ which is the default of ROS, others would see its nodes, and a publisher that se
 shell; it names colcon's build folder, where the package's metadata are too.
 
 **Modules under their names in ROS.** PyPI has no tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs,
-message_filters, sensor_msgs_py and ament_copyright. Nodes and tests that import them get those of
-this package, under the names of the originals' modules.
+message_filters, sensor_msgs_py, nav2_simple_commander and ament_copyright. Nodes and tests that
+import them get those of this package, under the names of the originals' modules.
 
 **Packages of CMake.** Of those that PyPI has not, ``cmake/`` holds what packages of users ask for.
 """
@@ -79,6 +79,13 @@ MODULES = {
     'ament_copyright.main': 'ament_copyright.main',
     'colcon_amr_description': 'workspace.colcon',
     'message_filters': 'message_filters',
+    'nav2_simple_commander': None,
+    'nav2_simple_commander.costmap_2d': 'nav2_simple_commander.costmap_2d',
+    'nav2_simple_commander.footprint_collision_checker': (
+        'nav2_simple_commander.footprint_collision_checker'
+    ),
+    'nav2_simple_commander.line_iterator': 'nav2_simple_commander.line_iterator',
+    'nav2_simple_commander.robot_navigator': 'nav2_simple_commander.robot_navigator',
     'sensor_msgs_py': None,
     'sensor_msgs_py.numpy_compat': 'sensor_msgs_py.numpy_compat',
     'sensor_msgs_py.point_cloud2': 'sensor_msgs_py.point_cloud2',
