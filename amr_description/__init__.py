@@ -15,6 +15,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``trials/``             functions that drive it, run with many seeds: how often they pass
 ``tf2_ros/``            Buffer, TransformListener, broadcasters
 ``message_filters/``    synchronizers and caches of topics, as ``import message_filters``
+``ros_packages/``       other packages of ROS in Python: ``cv_bridge``, ``tf_transformations`` …
 ``sensor_msgs_py/``     point clouds as arrays, as ``import sensor_msgs_py``
 ``ament_copyright/``    the linter of copyright notices, as ``import ament_copyright``
 ``viewer/``             the browser page's server; in ``viewer/ros/`` the robots of the graph

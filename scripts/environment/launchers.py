@@ -26,7 +26,7 @@ which is the default of ROS, others would see its nodes, and a publisher that se
 shell; it names colcon's build folder, where the package's metadata are too.
 
 **Modules under their names in ROS.** PyPI has no tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs,
-message_filters, sensor_msgs_py, nav2_simple_commander and ament_copyright. Nodes and tests that
+message_filters, sensor_msgs_py, nav2_simple_commander, cv_bridge and others. Nodes and tests that
 import them get those of this package, under the names of the originals' modules.
 
 **Packages of CMake.** Of those that PyPI has not, ``cmake/`` holds what packages of users ask for.
@@ -78,6 +78,8 @@ MODULES = {
     'ament_copyright': None,
     'ament_copyright.main': 'ament_copyright.main',
     'colcon_amr_description': 'workspace.colcon',
+    'cv_bridge': 'ros_packages.cv_bridge',
+    'laser_geometry': 'ros_packages.laser_geometry',
     'message_filters': 'message_filters',
     'nav2_simple_commander': None,
     'nav2_simple_commander.costmap_2d': 'nav2_simple_commander.costmap_2d',
@@ -102,6 +104,7 @@ MODULES = {
     'tf2_ros.transform_listener': 'tf2_ros.listener',
     'tf2_sensor_msgs': 'tf2_ros.clouds',
     'tf2_sensor_msgs.tf2_sensor_msgs': 'tf2_ros.clouds',
+    'tf_transformations': 'ros_packages.tf_transformations',
 }
 MODULE = """\
 # Written by scripts/setup: the module of this name is that of amr_description here.

@@ -33,16 +33,16 @@ FEW_LINES = 80
 # the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
 # motions, the geometry of plugins, dialects of vendors, what lidars see of them), and trials with
 # their faults and seeds, robots as environments to learn in, arms of plugins that are tried by
-# their topics, and what clients of Nav2's servers ask a navigator,
-# such clients in Python among it.
+# their topics, what clients of Nav2's servers ask a navigator, and Python packages of ROS that
+# nodes import: nav2_simple_commander, cv_bridge, laser_geometry, tf_transformations.
 BUDGETS = {
-    'modules': 828,
-    'code lines': 94_621,
+    'modules': 832,
+    'code lines': 95_006,
     'small modules of one importer beside them': 43,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
-    'modules with many public names': 26,
-    'code lines of helpers in test files': 26_272,
+    'modules with many public names': 27,
+    'code lines of helpers in test files': 26_329,
 }
 
 BASE = {
@@ -74,6 +74,7 @@ ARROWS = {
     'tf2_ros': {'ros', 'model', 'sensor_msgs_py'},  # of clouds
     'message_filters': set(),
     'nav2_simple_commander': set(),
+    'ros_packages': set(),
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
     'workspace': set(),
@@ -166,13 +167,16 @@ ARROWS = {
     },  # fmt: skip
 }
 # For nodes and tests of users, under their names in ROS.
-FOR_USERS = {'message_filters', 'nav2_simple_commander', 'sensor_msgs_py', 'ament_copyright'}
+FOR_USERS = {
+    'message_filters', 'nav2_simple_commander', 'ros_packages', 'sensor_msgs_py',
+    'ament_copyright',
+}  # fmt: skip
 ABOVE_NODES = {'bringup', 'launch_api', 'cli', 'testing', 'workspace', 'amr_description'}
 ARROWS['nodes'] = ARROWS.keys() - ABOVE_NODES - FOR_USERS
 ROS = {
     'control/ros', 'sim/ros', 'viewer/ros', 'navigation/ros', 'ros', 'tf2_ros',
-    'bag/ros', 'doctor/ros', 'message_filters', 'nav2_simple_commander', 'sensor_msgs_py',
-    'nodes', 'cli', 'testing',
+    'bag/ros', 'doctor/ros', 'message_filters', 'nav2_simple_commander', 'ros_packages',
+    'sensor_msgs_py', 'nodes', 'cli', 'testing',
 }  # fmt: skip
 PURE_TF2 = {'tf2_ros/time_cache', 'tf2_ros/buffer_core', 'tf2_ros/frame_graph'}
 PURE = {
@@ -189,7 +193,7 @@ HOMES = {
     'trimesh': {'model'},
     'collada': {'model'},
     'yourdfpy': {'model'},
-    'simplejpeg': {'sim', 'viewer'},
+    'simplejpeg': {'sim', 'viewer', 'ros_packages'},
     'colcon_core': {'workspace'},
     'mcap': {'bag'},
     'zstandard': {'bag'},

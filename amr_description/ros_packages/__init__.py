@@ -1,0 +1,13 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""
+Packages of ROS that are Python and that nodes of robots import, where they are not installed.
+
+Each is importable by its own name, has the functions of Jazzy, and is written anew.
+
+========================= =========================================================================
+``cv_bridge.py``          images ↔ arrays; with OpenCV, where it is installed, also more formats
+``laser_geometry.py``     scans → point clouds
+``tf_transformations.py`` quaternions, Euler angles, homogeneous matrices
+========================= =========================================================================
+"""
