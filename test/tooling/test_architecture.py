@@ -37,7 +37,7 @@ FEW_LINES = 80
 # nodes import: nav2_simple_commander, cv_bridge, laser_geometry, tf_transformations.
 BUDGETS = {
     'modules': 832,
-    'code lines': 95_006,
+    'code lines': 95_008,
     'small modules of one importer beside them': 43,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

@@ -41,6 +41,7 @@ MUX = 'package://amr_description/config/twist_mux.yaml'
 NAVIGATOR = 'package://amr_description/config/navigator.yaml'
 """Parameters of the navigator for amr."""
 _OBSTACLE_MAP = 'obstacle_map'
+_ASSISTED = 'cmd_vel_assisted'
 _BAND = ('--height', '0.02', '--top', '0.4')
 """m; what a robot like amr would run into, between the ground and the deck of its sensors."""
 NONE = 'none'
@@ -86,13 +87,13 @@ def navigation(
     start = (others['x'], others['y'], others['yaw'])
     localizers = _localizer(localization, robot, start, has_map=bool(maps))
 
-    # 3. What drives to goals, unless Nav2 does.
-    drives = [_navigator(robot, is_amr)] if navigator else []
+    # 3. Commands of planners and persons, by priority, to the wheels.
+    mux = _mux(robot.velocity_topic, str(path_of(twist_mux, 'twist_mux')))
+
+    # 4. What drives to goals, unless Nav2 does.
+    drives = [_navigator(robot, is_amr, has_mux=bool(mux))] if navigator else []
     if drives and map == 'world':
         drives = _on_obstacle_map(drives[0], world, others['x'], others['y'])
-
-    # 4. Commands of planners and persons, by priority, to the wheels.
-    mux = _mux(robot.velocity_topic, str(path_of(twist_mux, 'twist_mux')))
 
     return Stack(
         [*robot.nodes, *maps, *localizers, *drives, *mux],
@@ -154,8 +155,13 @@ def _localizer(
     ]
 
 
-def _navigator(robot: SimulatedRobot, is_amr: bool) -> Node:
-    """Return the node that drives to goals; a robot that is not amr is taken as round."""
+def _navigator(robot: SimulatedRobot, is_amr: bool, *, has_mux: bool) -> Node:
+    """
+    Return the node that drives to goals; a robot that is not amr is taken as round.
+
+    Beside a mux, which takes ``/cmd_vel_teleop`` to the wheels as it is, what is to be kept from
+    obstacles has a topic of its own.
+    """
     # Plain Twist, as Nav2 by default and `ros2 topic pub` in most books: a topic has one type.
     parameters: dict[str, ParameterValue] = {
         'use_sim_time': True,
@@ -172,6 +178,7 @@ def _navigator(robot: SimulatedRobot, is_amr: bool) -> Node:
     return Node(
         'navigator',
         parameters=[*files, parameters],
+        remappings=[('cmd_vel_teleop', _ASSISTED)] if has_mux else [],
         start_when=robot.ready_when,
         required='at start',
         respawn=ANEW,
@@ -183,7 +190,7 @@ def _on_obstacle_map(navigator: Node, world: str, x: float, y: float) -> list[No
     remappings = [('map', _OBSTACLE_MAP)]
     maps = _map_of_world(world, x, y, *_BAND)
     maps = replace(maps, name=_OBSTACLE_MAP, remappings=remappings)
-    return [maps, replace(navigator, remappings=remappings)]
+    return [maps, replace(navigator, remappings=[*navigator.remappings, *remappings])]
 
 
 def _map_of_world(world: str, x: float, y: float, *more: str) -> Node:

@@ -92,7 +92,7 @@ def test_the_map_is_that_of_the_world_seen_from_the_start():
 
 def test_the_navigator_plans_on_a_map_of_what_the_lidar_does_not_see(tmp_path):
     made = stack(world='walls', x='1.5')
-    assert node(made, 'navigator').remappings == [('map', 'obstacle_map')]
+    assert ('map', 'obstacle_map') in node(made, 'navigator').remappings
     seen, whole = [each for each in made.nodes if each.executable == 'map_of_world']
     assert (seen.name, whole.name) == (None, 'obstacle_map')
     start = ['walls', '--publish', '--start', '1.5', '0.0']
@@ -211,3 +211,8 @@ def test_everything_starts_before_it_is_ready():
 def test_what_cannot_be_gets_one_line(given, line):
     with pytest.raises((AmrError, UsageError), match=line):
         stack(**given)
+
+
+def test_assisted_teleop_has_a_topic_of_its_own_beside_a_mux():
+    beside = ('cmd_vel_teleop', 'cmd_vel_assisted')
+    assert beside in node(stack(), 'navigator').remappings
