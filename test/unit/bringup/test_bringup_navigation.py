@@ -92,14 +92,18 @@ def test_the_map_is_that_of_the_world_seen_from_the_start():
 
 def test_the_navigator_plans_on_a_map_of_what_the_lidar_does_not_see(tmp_path):
     made = stack(world='walls', x='1.5')
-    assert ('map', 'obstacle_map') in node(made, 'navigator').remappings
+    assert node(made, 'navigator').remappings == [
+        ('cmd_vel_teleop', 'cmd_vel_assisted'),
+        ('map', 'obstacle_map'),
+    ]
     seen, whole = [each for each in made.nodes if each.executable == 'map_of_world']
     assert (seen.name, whole.name) == (None, 'obstacle_map')
     start = ['walls', '--publish', '--start', '1.5', '0.0']
     assert whole.arguments == [*start, '--height', '0.02', '--top', '0.4']
     file = tmp_path / 'hall.yaml'
     file.touch()
-    assert not node(stack(map=str(file)), 'navigator').remappings
+    served = node(stack(map=str(file)), 'navigator').remappings
+    assert served == [('cmd_vel_teleop', 'cmd_vel_assisted')]
 
 
 def test_a_saved_map_is_served(tmp_path):
@@ -211,8 +215,3 @@ def test_everything_starts_before_it_is_ready():
 def test_what_cannot_be_gets_one_line(given, line):
     with pytest.raises((AmrError, UsageError), match=line):
         stack(**given)
-
-
-def test_assisted_teleop_has_a_topic_of_its_own_beside_a_mux():
-    beside = ('cmd_vel_teleop', 'cmd_vel_assisted')
-    assert beside in node(stack(), 'navigator').remappings
