@@ -29,7 +29,6 @@ graph.py actions.py     topics, services, nodes, actions of the ROS graph
 names.py                names of topics, services and actions, as they are typed
 qos.py                  QoS from flags, or matched to publishers
 mismatch.py             warnings about nodes with another message type
-message_text.py         a message -> YAML or CSV
 message_filter.py       ``--filter``
 echo_printer.py         the output of ``ros2 topic echo``
 service_calls.py        service calls

@@ -101,7 +101,7 @@ def _pursue(
     session: 'Session', client: 'ActionClient', goal: Any, *, feedback: bool, timeout: float | None
 ) -> int:
     """Send a goal and see it through to its result or its cancellation; return the exit code."""
-    from amr_description.cli.message_text import to_yaml
+    from amr_description.ros.message_text import to_yaml
 
     print(f'Sending goal:\n     {to_yaml(goal)}')
     with session.finishing() as stopped:
@@ -129,7 +129,7 @@ def _pursue(
 
 def _report(response: Any) -> int:
     """Print the result of a goal; return the exit code."""
-    from amr_description.cli.message_text import to_yaml
+    from amr_description.ros.message_text import to_yaml
 
     status = _STATUSES[response.status]
     print(f'Result:\n    {to_yaml(response.result)}')
@@ -138,7 +138,7 @@ def _report(response: Any) -> int:
 
 
 def _print_feedback(message: Any) -> None:
-    from amr_description.cli.message_text import to_yaml
+    from amr_description.ros.message_text import to_yaml
 
     print(f'Feedback:\n    {to_yaml(message.feedback)}')
 

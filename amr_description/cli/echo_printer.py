@@ -11,8 +11,8 @@ from typing import Any
 from rclpy.event_handler import QoSMessageLostInfo
 
 from amr_description.cli.message_filter import make_filter
-from amr_description.cli.message_text import dump_yaml, Style, to_csv, to_yaml
 from amr_description.errors import AmrError
+from amr_description.ros.message_text import dump_yaml, Style, to_csv, to_yaml
 
 
 class EchoPrinter:

@@ -33,6 +33,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``standing_clock.py``     the clock of an action server, which wakes nobody between goals
 ``messages.py``           stamps, poses and velocities ↔ messages
 ``message_fields.py``     what was typed -> the fields of a message; ``auto`` and ``now``
+``message_text.py``       a message → YAML, CSV, plain data
 ``message_types.py``      classes of messages, services and actions by their names
 ``layouts.py``            messages as bytes: their layouts, and templates that make them (``cdr/``)
 ``readers.py``            … read without making messages of them: a row for each type

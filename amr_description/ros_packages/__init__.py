@@ -8,6 +8,7 @@ Each is importable by its own name, has the functions of Jazzy, and is written a
 ========================= =========================================================================
 ``cv_bridge.py``          images ↔ arrays; with OpenCV, where it is installed, also more formats
 ``laser_geometry.py``     scans → point clouds
+``rosidl_runtime_py.py``   messages as YAML, CSV and dictionaries; classes by their names
 ``tf_transformations.py`` quaternions, Euler angles, homogeneous matrices
 ========================= =========================================================================
 """

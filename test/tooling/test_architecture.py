@@ -34,15 +34,16 @@ FEW_LINES = 80
 # motions, the geometry of plugins, dialects of vendors, what lidars see of them), and trials with
 # their faults and seeds, robots as environments to learn in, arms of plugins that are tried by
 # their topics, what clients of Nav2's servers ask a navigator, and Python packages of ROS that
-# nodes import: nav2_simple_commander, cv_bridge, laser_geometry, tf_transformations.
+# nodes import: nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py,
+# tf_transformations.
 BUDGETS = {
-    'modules': 832,
-    'code lines': 95_008,
+    'modules': 833,
+    'code lines': 95_081,
     'small modules of one importer beside them': 43,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_329,
+    'code lines of helpers in test files': 26_339,
 }
 
 BASE = {
@@ -74,7 +75,7 @@ ARROWS = {
     'tf2_ros': {'ros', 'model', 'sensor_msgs_py'},  # of clouds
     'message_filters': set(),
     'nav2_simple_commander': set(),
-    'ros_packages': set(),
+    'ros_packages': {'ros'},
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
     'workspace': set(),

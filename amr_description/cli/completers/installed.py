@@ -119,7 +119,7 @@ def _fields(value: Any) -> str:
     """Return YAML on one line, as it would be typed."""
     import yaml
 
-    from amr_description.cli.message_text import to_yaml
+    from amr_description.ros.message_text import to_yaml
 
     fields = yaml.safe_load(to_yaml(value))
     return yaml.safe_dump(

@@ -117,7 +117,7 @@ class ProtoVerb:
     @staticmethod
     def main(args: Namespace) -> int:
         """Print a message with its defaults, as YAML; 0."""
-        from amr_description.cli.message_text import Style, to_yaml
+        from amr_description.ros.message_text import Style, to_yaml
 
         text = to_yaml(_message_class(args.type)(), Style(truncate_length=None))
         print(text if args.no_quotes else f'"{text}"')

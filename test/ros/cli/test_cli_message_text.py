@@ -15,14 +15,14 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Byte, Empty, Float64, String
 import yaml
 
-from amr_description.cli.message_text import (
+from amr_description.ros.message_fields import set_fields
+from amr_description.ros.message_text import (
     dump_with_pyyaml,
     dump_yaml,
     Style,
     to_csv,
     to_yaml,
 )
-from amr_description.ros.message_fields import set_fields
 
 JOINTS = JointState(name=['a', 'b'], position=[0.0, 1.5])
 JOINTS.header.stamp.sec = 3

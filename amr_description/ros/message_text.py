@@ -64,6 +64,11 @@ def to_yaml(message: Any, style: Style = Style()) -> str:  # noqa: B008 (frozen)
     return dump_yaml(_mapping(message, style), flow_style=style.flow_style)
 
 
+def to_plain(message: Any, style: Style) -> dict[str, Any]:
+    """Return a message as what YAML knows: mappings, lists, strings, numbers, truths."""
+    return _mapping(message, style)
+
+
 def dump_yaml(value: Any, *, flow_style: bool = False, sort_keys: bool = False) -> str:
     """
     Return plain data as YAML, as PyYAML writes it.

@@ -1,0 +1,119 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``rosidl_runtime_py``: messages as YAML, CSV and dictionaries, and back; classes by name."""
+
+from collections import OrderedDict
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from amr_description.ament_index import package_share
+from amr_description.errors import AmrError
+from amr_description.ros.message_fields import set_fields
+from amr_description.ros.message_text import Style, to_csv, to_plain, to_yaml
+from amr_description.ros.message_types import action_type, message_type, service_type
+
+get_message: Callable[[str], Any] = message_type
+"""Return the class of ``package/msg/Name``."""
+get_service: Callable[[str], Any] = service_type
+"""Return the class of ``package/srv/Name``."""
+get_action: Callable[[str], Any] = action_type
+"""Return the class of ``package/action/Name``."""
+
+
+def get_interface(identifier: str) -> Any:
+    """Return the class of an interface of any kind. Raises ValueError: its name is no name."""
+    kinds = {'msg': get_message, 'srv': get_service, 'action': get_action}
+    kind = identifier.split('/')[1:2]
+    if not kind or kind[0] not in kinds:
+        raise ValueError(f"'{identifier}' is not written as package/msg/Name, srv or action")
+    return kinds[kind[0]](identifier)
+
+
+def get_interface_path(interface_name: str) -> str:
+    """Return the file of an interface, ``package/msg/Name``. Raises LookupError: there is none."""
+    package, *rest = interface_name.split('/')
+    try:
+        path = package_share(package).joinpath(*rest)
+    except AmrError as error:
+        raise LookupError(str(error)) from error
+    if not path.suffix and len(rest) == 2:
+        path = path.with_suffix(f'.{rest[0]}')
+    if not path.is_file():
+        raise LookupError(f"Could not find the interface '{path}'")
+    return str(Path(path))
+
+
+def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
+    """Return the types of the fields of a message, in their order."""
+    return OrderedDict(zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=True))
+
+
+def message_to_yaml(
+    msg: Any,
+    *,
+    truncate_length: int | None = None,
+    no_arr: bool = False,
+    no_str: bool = False,
+    flow_style: bool = False,
+) -> str:
+    """Return the fields of a message as YAML; arrays and texts are cut after a length."""
+    return to_yaml(msg, Style(truncate_length, not no_arr, not no_str, flow_style))
+
+
+def message_to_csv(
+    msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> str:
+    """Return the values of a message in one line, separated by commas."""
+    return to_csv(msg, Style(truncate_length, not no_arr, not no_str))
+
+
+def message_to_ordereddict(
+    msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> OrderedDict[str, Any]:
+    """Return a message as a dictionary of dictionaries, lists, numbers and texts."""
+    found = _ordered(to_plain(msg, Style(truncate_length, not no_arr, not no_str)))
+    assert isinstance(found, OrderedDict), 'as a message is'
+    return found
+
+
+def set_message_fields(
+    msg: Any,
+    values: Mapping[str, Any],
+    expand_header_auto: bool = False,
+    expand_time_now: bool = False,
+) -> list[Any]:
+    """
+    Set the fields of a message; those that are not named stay.
+
+    Args:
+        msg: The message.
+        values: By the names of its fields, as YAML has them.
+        expand_header_auto: Whether ``auto`` stands for a header of the time of a publication.
+        expand_time_now: Whether ``now`` stands for such a time.
+
+    Returns:
+        What is to be called with the time of each publication.
+
+    Raises:
+        AttributeError: There is no such field.
+        TypeError: ``values`` is no mapping.
+        ValueError: A value is none of its field.
+    """
+    if not isinstance(values, Mapping):
+        kind = type(values).__name__
+        raise TypeError(f"Value '{values}' is expected to be a dictionary but is a {kind}")
+    try:
+        stamps = set_fields(msg, dict(values))
+    except AmrError as error:
+        is_unknown = 'has no attribute' in str(error)
+        raise (AttributeError if is_unknown else ValueError)(str(error)) from error
+    if stamps and not (expand_header_auto or expand_time_now):
+        raise ValueError("'auto' and 'now' are no values of a header or a time here")
+    return stamps
+
+
+def _ordered(value: Any) -> Any:
+    if isinstance(value, dict):
+        return OrderedDict((name, _ordered(each)) for name, each in value.items())
+    return [_ordered(each) for each in value] if isinstance(value, list) else value

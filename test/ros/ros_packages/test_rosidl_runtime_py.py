@@ -1,0 +1,71 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""``rosidl_runtime_py`` by its own name, and by those of its modules."""
+
+from collections import OrderedDict
+
+from geometry_msgs.msg import PoseStamped
+import pytest
+from rosidl_runtime_py import (
+    get_interface_path,
+    message_to_csv,
+    message_to_ordereddict,
+    message_to_yaml,
+    set_message_fields,
+)
+from rosidl_runtime_py.convert import get_message_slot_types
+from rosidl_runtime_py.utilities import get_action, get_interface, get_message, get_service
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+STATE = JointState(name=['left', 'right'], position=[1.0, 2.0])
+
+
+def test_messages_are_yaml_csv_and_dictionaries():
+    assert message_to_yaml(String(data='a: b')) == "data: 'a: b'\n"
+    text = message_to_yaml(STATE, flow_style=True)
+    assert text.endswith('position: [1.0, 2.0]\nvelocity: []\neffort: []\n')
+    assert message_to_csv(STATE) == '0,0,,left,right,1.0,2.0,,'
+    found = message_to_ordereddict(STATE)
+    assert list(found) == ['header', 'name', 'position', 'velocity', 'effort']
+    assert isinstance(found['header']['stamp'], OrderedDict)
+    assert (found['name'], found['position']) == (['left', 'right'], [1.0, 2.0])
+    assert message_to_ordereddict(STATE, truncate_length=1)['position'] == [1.0, '...']
+    assert 'sequence type' in message_to_yaml(STATE, no_arr=True)
+
+
+def test_what_is_written_is_read_again():
+    message = JointState()
+    assert set_message_fields(message, message_to_ordereddict(STATE)) == []
+    assert message == STATE
+    pose = PoseStamped()
+    (stamp,) = set_message_fields(pose, {'header': 'auto'}, expand_header_auto=True)
+    assert callable(stamp)
+
+
+@pytest.mark.parametrize(
+    ('values', 'error', 'text'),
+    [
+        ({'nome': []}, AttributeError, "has no attribute 'nome'"),
+        ({'position': 'far'}, ValueError, 'position'),
+        ([1.0], TypeError, 'expected to be a dictionary but is a list'),
+        ({'header': {'stamp': 'now'}}, ValueError, "'auto' and 'now'"),
+    ],
+)
+def test_what_is_no_value_is_refused(values, error, text):
+    with pytest.raises(error, match=text):
+        set_message_fields(JointState(), values)
+
+
+def test_classes_and_files_are_found_by_name():
+    assert get_message('std_msgs/msg/String') is get_interface('std_msgs/msg/String') is String
+    assert get_service('std_srvs/srv/Trigger') is Trigger
+    assert get_action('nav2_msgs/action/Spin').__name__ == 'Spin'
+    with pytest.raises(ValueError, match='not written as'):
+        get_interface('std_msgs/String')
+    assert get_interface_path('nav2_msgs/action/Spin').endswith('nav2_msgs/action/Spin.action')
+    for name in ('nav2_msgs/action/Nothing', 'no_such_package/msg/Name'):
+        with pytest.raises(LookupError):
+            get_interface_path(name)
+    assert [*get_message_slot_types(String)] == ['data']
