@@ -127,7 +127,11 @@ from amr_description.ros.parameters import add_validation_callback, declare, val
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.runtime import run
 
-_PURPOSE = 'Drive to goals around what map and scan show: /navigate_to_pose, /goal_pose.'
+_PURPOSE = (
+    'Drive to goals around what map and scan show: /navigate_to_pose, /goal_pose. There are no '
+    'behavior trees, docks or GPS: such goals are refused. There is one planner, smoother and '
+    'follower: their ids in goals make no difference.'
+)
 _PATIENCE = 5.0
 """s without a usable pose or scan before a goal is given up."""
 _FEEDBACK_PERIOD = 0.1
