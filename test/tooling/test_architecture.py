@@ -38,8 +38,8 @@ FEW_LINES = 80
 # tf_transformations.
 BUDGETS = {
     'modules': 833,
-    'code lines': 95_081,
-    'small modules of one importer beside them': 43,
+    'code lines': 95_072,
+    'small modules of one importer beside them': 42,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,

@@ -5,8 +5,8 @@ Asks and listens to the ROS graph, by a probe for each section of what is observ
 
 ===================  =============================================================================
 ``collector.py``     all sections within one window of time
-``shared.py``        ``/clock`` and parameters, which several of them need
-``topic_probe.py``       messages with their publishers, taken without callbacks
+``probe_context.py`` ``/clock`` and parameters, which several of them need
+``topic_probe.py``   messages with their publishers, taken without callbacks
 ``queries.py``       services that change nothing, and parameters
 ``graph.py``         nodes, their processes and answers; topics
 ``clock.py``         ``/clock``, the real-time factor, stamps

@@ -7,13 +7,12 @@ import struct
 import time
 
 from rcl_interfaces.msg import Log
-from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from amr_description.clock import NANOSECONDS
 from amr_description.doctor.observations.clock import Clock, StampSeen, TimeSource
+from amr_description.doctor.ros.probe_context import CLOCK_TOPIC, ProbeContext
 from amr_description.doctor.ros.queries import ParameterQuery
-from amr_description.doctor.ros.shared import CLOCK_TOPIC, shared_of
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.doctor.rules.clock import LEAST_FACTOR_SHARE
 from amr_description.errors import AmrError
@@ -61,24 +60,24 @@ _RESUMES = {
 class ClockProbe:
     """Observes time."""
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Listen to ``/clock``, and to topics whose messages are stamped."""
-        self._node = node
-        self._shared = shared_of(node)
+        self._context, self._node = context, context.node
+        node = context.node
         self._began = time.monotonic()
         self._publishers = tuple(
             endpoint_node(each) or 'a node'
             for each in node.get_publishers_info_by_topic(CLOCK_TOPIC)
         )
         if self._publishers:
-            self._shared.listen()
+            self._context.listen()
         self._probes: dict[str, TopicProbe] = {}
         self._offsets: dict[str, int] = {}
         self._stamps: dict[str, dict[tuple[bytes, int], tuple[int, int]]] = {}
         self._listen_to_stamps()
         self._resumes = self._find_sources()
         self._factors: dict[str, ParameterQuery] = {
-            name: self._shared.ask(name, [_FACTOR]) for name, _ in self._resumes
+            name: self._context.ask(name, [_FACTOR]) for name, _ in self._resumes
         }
         self._reports: dict[str, str] = {}
         self._log: TopicProbe | None = None
@@ -93,8 +92,8 @@ class ClockProbe:
         has_stamps = all(self._stamps.values()) or waited > _STAMP_PATIENCE
         if not self._publishers:
             return has_stamps
-        listened = self._shared.seconds
-        is_received = listened >= LISTEN if self._shared.ticks else listened >= _SILENCE
+        listened = self._context.seconds
+        is_received = listened >= LISTEN if self._context.ticks else listened >= _SILENCE
         if not (has_answers and has_stamps and is_received):
             return False
         return self._has_reports()
@@ -102,7 +101,7 @@ class ClockProbe:
     def observe(self) -> Clock:
         """Return what was received."""
         self._take()
-        shared = self._shared
+        shared = self._context
         stamps = tuple(
             StampSeen(
                 topic=topic,
@@ -125,7 +124,6 @@ class ClockProbe:
         for each in (*self._probes.values(), self._log):
             if each is not None:
                 each.destroy()
-        shared.release()
         return clock
 
     # --- sources ------------------------------------------------------------------------------
@@ -155,7 +153,7 @@ class ClockProbe:
         """Look what the simulator has logged, if it is slow; return whether that has come."""
         if self._log is not None:
             return time.monotonic() - self._log_began > _REPORT_PATIENCE
-        clock = Clock(ticks=tuple(self._shared.ticks))
+        clock = Clock(ticks=tuple(self._context.ticks))
         asked = [
             value
             for each in self._factors.values()
@@ -164,7 +162,7 @@ class ClockProbe:
         factor = clock.factor
         if factor is None or not asked or factor >= LEAST_FACTOR_SHARE * max(asked):
             return True
-        if self._shared.seconds < SURE:
+        if self._context.seconds < SURE:
             return False
         self._log_began = time.monotonic()
         self._log = TopicProbe(self._node, Log, '/rosout', depth=1000, qos=_ROSOUT)
@@ -198,7 +196,7 @@ class ClockProbe:
 
     def _take(self) -> None:
         """Take what has come: of each publisher and minute, the latest stamp."""
-        self._shared.receive()
+        self._context.receive()
         self._take_log()
         for topic, probe in self._probes.items():
             for taken in probe.take_bytes():

@@ -21,8 +21,8 @@ from amr_description.doctor.ros.controllers import ControllersProbe
 from amr_description.doctor.ros.description import DescriptionProbe
 from amr_description.doctor.ros.graph import GraphProbe
 from amr_description.doctor.ros.navigation import NavigationProbe
+from amr_description.doctor.ros.probe_context import ProbeContext
 from amr_description.doctor.ros.sensors import SensorsProbe
-from amr_description.doctor.ros.shared import forget
 from amr_description.doctor.ros.transforms import TransformsProbe
 from amr_description.text import one_line
 
@@ -33,7 +33,7 @@ WINDOW = 3.0
 class Probe(Protocol):
     """Observes one section."""
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Subscribe and ask; the graph is complete, as far as can be known."""
 
     @property
@@ -70,11 +70,11 @@ class Guarded:
         self.fault = ''
         """Why nothing is observed; empty: it is."""
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Make the probe, and let it begin."""
         with self._kept():
             self._probe = self._make()
-            self._probe.begin(node)
+            self._probe.begin(context)
 
     @property
     def is_done(self) -> bool:
@@ -102,10 +102,10 @@ class RosExamination:
 
     def __init__(self, node: Node, probes: Mapping[str, Callable[[], Probe]] = PROBES) -> None:
         """Begin all ``probes``; whoever has ``node`` spins it, and destroys it in the end."""
-        self._node = node
+        self._context = ProbeContext(node)
         self._probes = {name: Guarded(make) for name, make in probes.items()}
         for each in self._probes.values():
-            each.begin(node)
+            each.begin(self._context)
 
     @property
     def is_done(self) -> bool:
@@ -117,8 +117,8 @@ class RosExamination:
         return _observed(self._probes)
 
     def end(self) -> None:
-        """Forget what the probes shared, whether they have observed or not."""
-        forget(self._node)
+        """Destroy what the probes shared, whether they have observed or not."""
+        self._context.destroy()
 
 
 def collect(
@@ -141,8 +141,11 @@ def collect(
     """
     with what_is_made_goes(node):
         examination = RosExamination(node, probes)
-        spin(lambda: examination.is_done, window)
-        return replace(examination.observe(), **sections)
+        try:
+            spin(lambda: examination.is_done, window)
+            return replace(examination.observe(), **sections)
+        finally:
+            examination.end()
 
 
 def _observed(probes: Mapping[str, Guarded]) -> Observations:
@@ -164,4 +167,3 @@ def what_is_made_goes(node: Node) -> Iterator[None]:
             node.destroy_client(client)
         for timer in {*node.timers} - before:
             node.destroy_timer(timer)
-        forget(node)

@@ -9,7 +9,6 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
-from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Bool
 
@@ -21,8 +20,8 @@ from amr_description.doctor.observations.commands import (
     StopLock,
 )
 from amr_description.doctor.observations.graph import STAMPED_TWIST, TWIST, VELOCITY_TYPES
+from amr_description.doctor.ros.probe_context import CLOCK_TOPIC, ProbeContext
 from amr_description.doctor.ros.queries import GET_PARAMETERS, ParameterQuery
-from amr_description.doctor.ros.shared import CLOCK_TOPIC, shared_of
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.messages import nanoseconds
@@ -51,10 +50,10 @@ _MILLISECOND = 1e-3
 class CommandProbe:
     """Observes commands."""
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Listen to the topics of commands that are published, and ask who subscribes."""
-        self._node = node
-        self._shared = shared_of(node)
+        self._context, self._node = context, context.node
+        node = context.node
         self._began = time.monotonic()
         self._is_simulated = node.count_publishers(CLOCK_TOPIC) > 0
         self._topics: list[_CommandTopic] = []
@@ -65,7 +64,7 @@ class CommandProbe:
             elif name.rpartition('/')[2] == _LOCK and _BOOL in types:
                 self._add_lock(name)
         if self._is_simulated and any(each.publishers for each in self._topics):
-            self._shared.listen()
+            self._context.listen()
         self._queries = self._ask()
 
     @property
@@ -108,7 +107,6 @@ class CommandProbe:
         for probe in [*(t.probe for t in self._topics), *(k.probe for k in self._locks)]:
             if probe is not None:
                 probe.destroy()
-        self._shared.release()
         return commands
 
     # --- topics -------------------------------------------------------------------------------
@@ -144,7 +142,7 @@ class CommandProbe:
             return None
 
     def _take(self) -> None:
-        self._shared.receive()
+        self._context.receive()
         for topic in self._topics:
             if topic.probe is not None and len(topic.seen) < _MOST:
                 topic.seen += topic.probe.take()
@@ -160,7 +158,7 @@ class CommandProbe:
             if isinstance(message, TwistStamped):
                 twist = message.twist
                 stamp = nanoseconds(message.header.stamp)
-                present = self._shared.time_at(received) if self._is_simulated else received
+                present = self._context.time_at(received) if self._is_simulated else received
                 age = present - stamp if stamp and present is not None else None
             yield CommandSeen(
                 received=received,
@@ -180,9 +178,11 @@ class CommandProbe:
         own = self._node.get_fully_qualified_name()
         return {
             node: {
-                **{name: self._shared.ask(node, [name]) for name in _TIMEOUTS},
-                **{name: self._shared.ask(node, _limits_of(name)) for name in _COMPONENTS},
-                **{_switch(name): self._shared.ask(node, [_switch(name)]) for name in _COMPONENTS},
+                **{name: self._context.ask(node, [name]) for name in _TIMEOUTS},
+                **{name: self._context.ask(node, _limits_of(name)) for name in _COMPONENTS},
+                **{
+                    _switch(name): self._context.ask(node, [_switch(name)]) for name in _COMPONENTS
+                },
             }
             for node in nodes
             if f'{node}{GET_PARAMETERS}' in services and node != own

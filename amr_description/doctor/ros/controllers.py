@@ -21,6 +21,7 @@ from amr_description.doctor.observations.controllers import (
     ObservedLogLine,
     ObservedManager,
 )
+from amr_description.doctor.ros.probe_context import ProbeContext
 from amr_description.doctor.ros.queries import AllParametersQuery, query
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.doctor.rules.controllers import DRIVE
@@ -42,8 +43,9 @@ class ControllersProbe:
         self._lines: dict[tuple[str, str], ObservedLogLine] = {}
         self._spawners: tuple[str, ...] = ()
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Ask all managers; those that have the name and no services, too."""
+        node = context.node
         self._began = time.monotonic()
         nodes = [
             f'{namespace.rstrip("/")}/{name}'

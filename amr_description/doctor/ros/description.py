@@ -4,12 +4,12 @@
 
 import time
 
-from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import String
 
 from amr_description.doctor.observations.description import Description, DescriptionTopic
+from amr_description.doctor.ros.probe_context import ProbeContext
 from amr_description.doctor.ros.queries import ParameterQuery, parameters_of
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.ros.endpoints import endpoint_node
@@ -29,8 +29,9 @@ class DescriptionProbe:
         self._texts: dict[str, dict[str, None]] = {}
         self._asked: dict[str, ParameterQuery] = {}
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Subscribe to all topics of the name, and ask each robot_state_publisher."""
+        node = context.node
         self._node = node
         self._began = time.monotonic()
         for topic, types in node.get_topic_names_and_types():

@@ -25,8 +25,8 @@ from amr_description.doctor.observations.graph import (
     ObservedQos,
     ObservedTopic,
 )
+from amr_description.doctor.ros.probe_context import CLOCK_TOPIC, ProbeContext
 from amr_description.doctor.ros.queries import GET_PARAMETERS, ParameterQuery
-from amr_description.doctor.ros.shared import CLOCK_TOPIC, Shared, shared_of
 from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.local_participants import local_participants, processes_of
 from amr_description.ros.node_lists import PREFIX
@@ -70,17 +70,17 @@ _TICKS = os.sysconf('SC_CLK_TCK')
 class GraphProbe:
     """Observes nodes and topics."""
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Ask all nodes for ``use_sim_time``."""
-        self._node = node
+        self._context, self._node = context, context.node
+        node = context.node
         self._own = node.get_fully_qualified_name()
-        self._shared: Shared = shared_of(node)
         self._began = time.monotonic()
         self._queries: dict[str, ParameterQuery] = {}
         for service, _ in node.get_service_names_and_types():
             name = service.removesuffix(GET_PARAMETERS)
             if name not in (service, self._own) and not _is_hidden(name):
-                self._queries[name] = self._shared.ask(name, ['use_sim_time'])
+                self._queries[name] = self._context.ask(name, ['use_sim_time'])
         host = self._own_host()
         self._work = {
             pid: _work_of(pid)
@@ -122,7 +122,6 @@ class GraphProbe:
             for name, (publishers, subscriptions) in found.items()
         )
         graph = ObservedGraph(topics=topics, nodes=tuple(self._nodes(host, running)))
-        self._shared.release()
         return graph
 
     # --- nodes --------------------------------------------------------------------------------

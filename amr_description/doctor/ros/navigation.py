@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Observes what Nav2 and slam_toolbox demand, where one of them is there."""
 
-from rclpy.node import Node
-
+from amr_description.doctor.ros.probe_context import ProbeContext
 from amr_description.navigation.contract.observations import ContractFrames, ContractObservations
 from amr_description.navigation.ros.contract.collector import Collector
 
@@ -25,8 +24,9 @@ class NavigationProbe:
     def __init__(self) -> None:
         self._collector: Collector | None = None
 
-    def begin(self, node: Node) -> None:
-        """Subscribe, if a node of navigation is in the namespace of ``node``."""
+    def begin(self, context: ProbeContext) -> None:
+        """Subscribe, if a node of navigation is in the namespace of the examiner."""
+        node = context.node
         here = node.get_namespace()
         names = {n for n, namespace in node.get_node_names_and_namespaces() if namespace == here}
         if names & _NODES:

@@ -10,11 +10,10 @@ from typing import Any, TypeVar
 
 from nav_msgs.msg import Odometry
 import numpy as np
-from rclpy.node import Node
 from sensor_msgs.msg import CameraInfo, Image, Imu, JointState, LaserScan
 
 from amr_description.doctor.observations import sensors as seen
-from amr_description.doctor.ros.shared import RobotTime
+from amr_description.doctor.ros.probe_context import ProbeContext, RobotTime
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.model.frames import yaw_of
 from amr_description.ros.messages import nanoseconds
@@ -56,15 +55,16 @@ class SensorsProbe:
         self._only_subscribed = only_subscribed
         self._topics: dict[str, _SensorTopic] = {}
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """
         Subscribe to sensors.
 
         Pictures are taken only if somebody else does, too: to render and to send them takes long.
         """
+        node = context.node
         self._began = time.monotonic()
         self._node = node
-        self._time = RobotTime(node)
+        self._time = RobotTime(context)
         found = {
             topic: _MESSAGES[types[0]]
             for topic, types in node.get_topic_names_and_types()
@@ -109,7 +109,6 @@ class SensorsProbe:
             joints=tuple(self._joints()),
             travels=tuple(self._travels()),
         )
-        self._time.release()
         return found
 
     def _take(self) -> None:

@@ -7,12 +7,11 @@ import math
 import time
 
 from geometry_msgs.msg import TransformStamped
-from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 
 from amr_description.doctor.observations.transforms import Edge, ObservedTransforms, Tree
-from amr_description.doctor.ros.shared import RobotTime
+from amr_description.doctor.ros.probe_context import ProbeContext, RobotTime
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.model.frames import Quaternion
 from amr_description.ros.messages import nanoseconds
@@ -31,10 +30,11 @@ class TransformsProbe:
         self._probes: dict[tuple[str, bool], TopicProbe] = {}
         self._seen: dict[tuple[str, str, str, bool, bytes], _Seen] = {}
 
-    def begin(self, node: Node) -> None:
+    def begin(self, context: ProbeContext) -> None:
         """Subscribe to all topics of transforms."""
+        node = context.node
         self._began = time.monotonic()
-        self._time = RobotTime(node)
+        self._time = RobotTime(context)
         for topic, types in node.get_topic_names_and_types():
             is_static = topic.endswith(_STATIC)
             if _TYPE not in types or not (is_static or topic.endswith(_MOVING)):
@@ -82,7 +82,6 @@ class TransformsProbe:
                     translation=each.translation,
                 )
             )
-        self._time.release()
         return ObservedTransforms(
             trees=tuple(
                 Tree(

@@ -28,7 +28,7 @@ from amr_description.doctor.ros.clock import ClockProbe, stamp_in
 from amr_description.doctor.ros.collector import collect, RosExamination, what_is_made_goes
 from amr_description.doctor.ros.commands import CommandProbe, drive_of
 from amr_description.doctor.ros.graph import serves
-from amr_description.doctor.ros.shared import _SHARED, shared_of
+from amr_description.doctor.ros.probe_context import ProbeContext
 from amr_description.doctor.ros.topic_probe import TopicProbe
 from amr_description.doctor.ros.transforms import TransformsProbe
 from amr_description.ros.messages import fill_stamp
@@ -117,7 +117,7 @@ def test_transforms_that_come_seldom_are_waited_for(graph, monkeypatch):
         assert wait_until(doctor, is_alone, timeout=PATIENCE), graph.announced()
         probe = TransformsProbe()
         with what_is_made_goes(doctor):
-            probe.begin(doctor)
+            probe.begin(ProbeContext(doctor))
             assert wait_until(
                 doctor, lambda: publisher.get_subscription_count() or None, timeout=PATIENCE
             )
@@ -139,7 +139,7 @@ def test_commands_are_listened_to_until_all_who_publish_them_are_connected(graph
         with what_is_made_goes(doctor):
             with monkeypatch.context() as patch:
                 patch.setattr(TopicProbe, 'is_connected', False)
-                probe.begin(doctor)
+                probe.begin(ProbeContext(doctor))
                 assert not wait_until(doctor, lambda: probe.is_done or None, timeout=0.2)
             assert wait_until(doctor, lambda: probe.is_done or None, timeout=PATIENCE)
             assert [each.name for each in probe.observe().topics] == ['/cmd_vel']
@@ -165,9 +165,9 @@ class Broken:
     def __init__(self, where):
         self.where = where
 
-    def begin(self, node):
+    def begin(self, context):
         self._fails('begin')
-        shared_of(node)
+        context.listen()
 
     @property
     def is_done(self):
@@ -184,6 +184,7 @@ class Broken:
 
 @pytest.mark.parametrize('where', ['begin', 'is_done', 'observe'])
 def test_a_probe_that_raises_takes_no_other_with_it(graph, where):
+    clients = [*graph.doctor.clients]
     seen = collect(
         graph.doctor,
         lambda until, timeout: wait_until(graph.doctor, lambda: until() or None, timeout=timeout),
@@ -192,19 +193,19 @@ def test_a_probe_that_raises_takes_no_other_with_it(graph, where):
     assert seen.faults == {'sensors': f'ValueError: in {where}'}
     assert seen.sensors is None
     assert seen.graph is not None
-    shared = shared_of(graph.doctor)
-    shared.release()
-    again = shared_of(graph.doctor)
-    again.release()
-    assert again is not shared  # nobody is counted who has failed before it released it
+    assert [*graph.doctor.clients] == clients
 
 
-def test_an_examination_that_is_broken_off_keeps_no_node(graph):
+def test_an_examination_that_is_broken_off_leaves_no_client(graph):
     node = Node('page', start_parameter_services=False)
-    examination = RosExamination(node, GRAPH)
-    assert node in _SHARED
-    examination.end()
-    assert node not in _SHARED
+    with graph.intruder('asked', use_sim_time=False):
+        assert wait_until(
+            node, lambda: node.count_services('/asked/get_parameters') or None, timeout=PATIENCE
+        )
+        examination = RosExamination(node, TIME)
+        assert [*node.clients]
+        examination.end()
+        assert [*node.clients] == []
     node.destroy_node()
 
 

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What several probes of one node have in common, so that it is subscribed to and asked only once.
+What the probes of one examination have in common, so that it is subscribed to and asked once.
 
 ``/clock`` is subscribed to by best effort, and every node has one client for its parameters.
 """
@@ -9,7 +9,6 @@ What several probes of one node have in common, so that it is subscribed to and 
 from bisect import bisect_right
 from collections.abc import Iterable
 import time
-from weakref import WeakKeyDictionary
 
 from rcl_interfaces.srv import GetParameters
 from rclpy.client import Client
@@ -27,21 +26,20 @@ CLOCK_TOPIC = '/clock'
 _DEPTH = 200
 """Ticks between two queries of the graph."""
 _MOST_TICKS = 20_000
-_SHARED: 'WeakKeyDictionary[Node, Shared]' = WeakKeyDictionary()
 
 
-class Shared:
-    """Made by :func:`shared_of`."""
+class ProbeContext:
+    """Made by who makes the probes, and destroyed after them."""
 
     def __init__(self, node: Node) -> None:
-        self._node = node
+        """``node``: has the subscriptions and clients of the probes."""
+        self.node = node
         self._clients: dict[str, tuple[Client, ServiceReadiness]] = {}
         self._queries: dict[tuple[str, tuple[str, ...]], ParameterQuery] = {}
         self._clock: TopicProbe | None = None
         self._matched: float | None = None
-        self._users = 0
         self.ticks: list[ClockTick] = []
-        """What :meth:`hear` has taken of ``/clock``."""
+        """What :meth:`receive` has taken of ``/clock``."""
 
     def ask(self, node: str, names: Iterable[str]) -> ParameterQuery:
         """Return a query to a node, by its full name; it is asked by being looked at."""
@@ -49,15 +47,15 @@ class Shared:
         if key not in self._queries:
             if node not in self._clients:
                 service = f'{node}{GET_PARAMETERS}'
-                client = self._node.create_client(GetParameters, service)
-                self._clients[node] = client, ServiceReadiness(self._node, client)
+                client = self.node.create_client(GetParameters, service)
+                self._clients[node] = client, ServiceReadiness(self.node, client)
             self._queries[key] = ParameterQuery(*self._clients[node], key[1])
         return self._queries[key]
 
     def listen(self) -> None:
         """Subscribe to ``/clock``, once."""
         if self._clock is None:
-            self._clock = TopicProbe(self._node, Clock, CLOCK_TOPIC, depth=_DEPTH)
+            self._clock = TopicProbe(self.node, Clock, CLOCK_TOPIC, depth=_DEPTH)
 
     def receive(self) -> None:
         """Take the ticks that have come."""
@@ -80,45 +78,36 @@ class Shared:
         place = bisect_right(self.ticks, received, key=lambda tick: tick.received)
         return self.ticks[max(0, place - 1)].time
 
-    def take(self) -> None:
-        """Count a probe that uses this."""
-        self._users += 1
-
-    def release(self) -> None:
-        """Count a probe that uses it no more; after the last one all subscriptions end."""
-        self._users -= 1
-        if self._users:
-            return
+    def destroy(self) -> None:
+        """Ask and listen no more."""
         for client, _ in self._clients.values():
-            self._node.destroy_client(client)
+            self.node.destroy_client(client)
+        self._clients.clear()
+        self._queries.clear()
         if self._clock is not None:
             self._clock.destroy()
-        _SHARED.pop(self._node, None)
+            self._clock = None
 
 
 class RobotTime:
     """What time it was for the robot when a message came: by ``/clock``, or by the system."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, context: ProbeContext) -> None:
         """Listen to ``/clock``, if somebody publishes it."""
-        self.is_simulated = node.count_publishers(CLOCK_TOPIC) > 0
-        self._shared = shared_of(node)
+        self.is_simulated = context.node.count_publishers(CLOCK_TOPIC) > 0
+        self._context = context
         self._seen = self._first = 0
         if self.is_simulated:
-            self._shared.listen()
+            self._context.listen()
 
     def take(self) -> None:
         """Take the ticks that have come. Where time was reset, the earlier ones are left out."""
-        self._shared.receive()
-        ticks = self._shared.ticks
+        self._context.receive()
+        ticks = self._context.ticks
         for place in range(max(self._seen, 1), len(ticks)):
             if ticks[place].time < ticks[place - 1].time:
                 self._first = place
         self._seen = len(ticks)
-
-    def release(self) -> None:
-        """Listen no more."""
-        self._shared.release()
 
     @property
     def is_known(self) -> bool:
@@ -134,21 +123,9 @@ class RobotTime:
         """
         if not self.is_simulated:
             return received - stamp
-        ticks = self._shared.ticks
+        ticks = self._context.ticks
         place = bisect_right(ticks, received, self._first, key=lambda tick: tick.received)
         if place in (self._first, len(ticks)):
             return None
         before, after = ticks[place - 1].time - stamp, ticks[place].time - stamp
         return 0 if before <= 0 <= after else min(before, after, key=abs)
-
-
-def shared_of(node: Node) -> Shared:
-    """Return what the probes of a node share; each releases it when it has observed."""
-    shared = _SHARED.setdefault(node, Shared(node))
-    shared.take()
-    return shared
-
-
-def forget(node: Node) -> None:
-    """Forget what the probes of a node shared, if one of them failed before it released that."""
-    _SHARED.pop(node, None)
