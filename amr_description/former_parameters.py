@@ -29,6 +29,15 @@ _NAMED = 6
 """So many of them are named there."""
 
 
+OF_BEFORE = 'it is of '
+"""How each text on a former parameter begins; what follows is what had it."""
+
+
+def is_on_former_parameter(line: str) -> bool:
+    """Return whether a line of a log is a text on a former parameter."""
+    return line.startswith('parameter') and f': {OF_BEFORE}' in line
+
+
 @dataclass(frozen=True, slots=True)
 class FormerValue:
     """What is made of a parameter."""
@@ -83,7 +92,7 @@ class Understanding:
 
 def ignored(name: str, origin: str, instead: str) -> FormerParameter:
     """Return one that has no effect: ``origin`` had it, ``instead`` is what does."""
-    text = f'it is of {origin}, and has no effect: {instead}'
+    text = f'{OF_BEFORE}{origin}, and has no effect: {instead}'
     return FormerParameter(name, lambda value, given: FormerValue(text, {}))
 
 
@@ -92,7 +101,7 @@ def replaced(name: str, origin: str, *new: str) -> FormerParameter:
 
     def read(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
         values = {each: value for each in new if each not in given}
-        text = f'it is of {origin}: taken as {" and ".join(new)}'
+        text = f'{OF_BEFORE}{origin}: taken as {" and ".join(new)}'
         return FormerValue(text, values) if values else None
 
     return FormerParameter(name, read)
@@ -103,7 +112,7 @@ def _clamp(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
         return None
     limit = abs(float(value))
     return FormerValue(
-        f'it is of earlier releases: taken as i_clamp_max {limit} and i_clamp_min {-limit}',
+        f'{OF_BEFORE}earlier releases: taken as i_clamp_max {limit} and i_clamp_min {-limit}',
         {'i_clamp_max': limit, 'i_clamp_min': -limit},
     )
 

@@ -10,14 +10,20 @@ from collections.abc import Mapping
 import math
 from typing import Any
 
-from amr_description.former_parameters import FormerParameter, FormerValue, ignored, replaced
+from amr_description.former_parameters import (
+    FormerParameter,
+    FormerValue,
+    ignored,
+    OF_BEFORE,
+    replaced,
+)
 
 
 def _stamped(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if value is False and 'enable_cmd_vel_unstamped' not in given:
         return FormerValue(
-            'it is of Humble: plain Twist is taken on ~/cmd_vel_unstamped, besides TwistStamped '
-            'on ~/cmd_vel; Jazzy takes TwistStamped only',
+            f'{OF_BEFORE}Humble: plain Twist is taken on ~/cmd_vel_unstamped, besides '
+            'TwistStamped on ~/cmd_vel; Jazzy takes TwistStamped only',
             {'enable_cmd_vel_unstamped': True},
         )
     return None
@@ -26,7 +32,7 @@ def _stamped(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
 def _stamped_only(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if value is False:
         return FormerValue(
-            'it is of Humble, and has no effect: TwistStamped is all that is taken', {}
+            f'{OF_BEFORE}Humble, and has no effect: TwistStamped is all that is taken', {}
         )
     return None
 
@@ -34,7 +40,7 @@ def _stamped_only(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
 def _tilde(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
     if value == '~':
         return FormerValue(
-            'it is of releases after Jazzy: the namespace of the node, as an empty one is here',
+            f'{OF_BEFORE}releases after Jazzy: the namespace of the node, as an empty one is here',
             {'tf_frame_prefix': ''},
         )
     return None
@@ -53,7 +59,7 @@ def _lowest_acceleration(value: Any, given: Mapping[str, Any]) -> FormerValue | 
     if any(name in given for name in names) or given.get('has_acceleration_limits') is False:
         return None
     return FormerValue(
-        f'it is of Humble: taken as {" and ".join(names)}', dict.fromkeys(names, float(value))
+        f'{OF_BEFORE}Humble: taken as {" and ".join(names)}', dict.fromkeys(names, float(value))
     )
 
 
@@ -82,7 +88,7 @@ def _renamed(name: str, new: str) -> FormerParameter:
         values = {new: value}
         if new == 'front_left_wheel_command_joint_name' and 'reference_timeout' not in given:
             values['reference_timeout'] = given.get('cmd_vel_timeout', _FORKS_TIMEOUT)
-        return FormerValue(f'it is of {_FORKS}: taken as {" and ".join(values)}', values)
+        return FormerValue(f'{OF_BEFORE}{_FORKS}: taken as {" and ".join(values)}', values)
 
     return FormerParameter(name, read)
 
@@ -95,7 +101,7 @@ def _halves(name: str, other: str) -> FormerParameter:
         if _SUM in given or not (_is_number(value) and _is_number(beside)):
             return None
         return FormerValue(
-            f'it is of {_FORKS}: half of it and of {other} is taken as {_SUM}',
+            f'{OF_BEFORE}{_FORKS}: half of it and of {other} is taken as {_SUM}',
             {_SUM: 0.5 * (value + beside)},
         )
 

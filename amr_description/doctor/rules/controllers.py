@@ -13,6 +13,7 @@ from amr_description.doctor.observations.controllers import (
     ObservedManager,
 )
 from amr_description.doctor.rules.machine import overloaded
+from amr_description.former_parameters import is_on_former_parameter
 from amr_description.model.checks import examine_drives
 from amr_description.model.checks.context import DriveSettings
 from amr_description.model.findings import Severity as UrdfSeverity, SourceLocation
@@ -20,8 +21,6 @@ from amr_description.text import did_you_mean
 
 STATE_BROADCASTER = 'joint_state_broadcaster/JointStateBroadcaster'
 DRIVE = 'diff_drive_controller/DiffDriveController'
-_FORMER = ': it is of '
-"""In what the log says of a parameter of an earlier release."""
 _SHOWN = 3
 
 
@@ -191,7 +190,7 @@ def former_parameters(seen: Observations) -> Iterator[Finding]:
     if seen.controllers is None:
         return
     for line in seen.controllers.log:
-        if line.text.startswith('parameter') and _FORMER in line.text:
+        if is_on_former_parameter(line.text):
             yield warning(
                 'former_parameters',
                 f'{line.node}: {line.text}',
