@@ -6,6 +6,7 @@ from argparse import ArgumentParser, ArgumentTypeError
 from typing import TypeVar
 
 T = TypeVar('T', int, float)
+_TRUNCATE_LENGTH = 128
 
 
 def add_node_arguments(parser: ArgumentParser) -> None:
@@ -53,6 +54,41 @@ def add_remote_node_arguments(parser: ArgumentParser, *, optional: bool = False)
         type=nonnegative_float,
         default=1.0,
         help='Wait for N seconds until node becomes available (default: 1)',
+    )
+
+
+def add_style_arguments(parser: ArgumentParser) -> None:
+    """Add how messages are printed; see :func:`amr_description.cli.echo_printer.style_of`."""
+    parser.add_argument(
+        '--csv',
+        action='store_true',
+        help='Output all recursive fields separated by commas (e.g. for plotting)',
+    )
+    parser.add_argument(
+        '--full-length',
+        '-f',
+        action='store_true',
+        help='Output all elements for arrays, bytes, and string with a length > '
+        "'--truncate-length', by default they are truncated after '--truncate-length' "
+        "elements with '...'",
+    )
+    parser.add_argument(
+        '--truncate-length',
+        '-l',
+        type=nonnegative_int,
+        default=_TRUNCATE_LENGTH,
+        help=f'The length to truncate arrays, bytes, and string to (default: {_TRUNCATE_LENGTH})',
+    )
+    parser.add_argument(
+        '--no-arr', action='store_true', help="Don't print array fields of messages"
+    )
+    parser.add_argument(
+        '--no-str', action='store_true', help="Don't print string fields of messages"
+    )
+    parser.add_argument(
+        '--flow-style',
+        action='store_true',
+        help='Print arrays in one line (not available with csv format)',
     )
 
 

@@ -30,12 +30,7 @@ class EchoPrinter:
         self._filter = make_filter(args.filter_expr)
         self._with_info = args.include_message_info
         self._csv = args.csv
-        self._style = Style(
-            truncate_length=None if args.full_length else args.truncate_length,
-            arrays=not args.no_arr,
-            strings=not args.no_str,
-            flow_style=args.flow_style,
-        )
+        self._style = style_of(args)
 
     def receive(self, message: Any) -> None:
         """
@@ -94,3 +89,13 @@ class EchoPrinter:
             return reduce(getattr, self._field, message)
         except AttributeError as error:
             raise AmrError(f"Invalid field '{'.'.join(self._field)}': {error}") from error
+
+
+def style_of(args: Namespace) -> Style:
+    """Return what the arguments say of how messages are printed."""
+    return Style(
+        truncate_length=None if args.full_length else args.truncate_length,
+        arrays=not args.no_arr,
+        strings=not args.no_str,
+        flow_style=args.flow_style,
+    )

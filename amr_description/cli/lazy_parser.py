@@ -31,7 +31,6 @@ INSTEAD_OF_COMMANDS = {
     'by `ros2 control list_controller_types`',
     'ros2 security': 'there are no enclaves; keep a robot to this host, or to one network, with '
     'ROS_AUTOMATIC_DISCOVERY_RANGE (docs/two_machines.md)',
-    'ros2 service echo': 'call the service with `ros2 service call`, or log in its node',
     'ros2 test': 'write tests for pytest (docs/test_your_robot.md), run by `colcon test`',
     'ros2 trace': 'see the times of the control loop with `ros2 topic echo /diagnostics`',
 }

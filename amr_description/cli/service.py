@@ -7,8 +7,13 @@ import sys
 import time
 from typing import Any, TYPE_CHECKING
 
-from amr_description.cli.arguments import positive_float
+from amr_description.cli.arguments import (
+    add_node_arguments,
+    add_style_arguments,
+    positive_float,
+)
 from amr_description.errors import AmrError
+from amr_description.text import did_you_mean
 
 if TYPE_CHECKING:
     from rclpy.client import Client
@@ -93,6 +98,80 @@ class CallVerb:
                 session.serve(timeout=start + 1.0 / args.rate - time.monotonic())
 
 
+class EchoVerb:
+    """
+    Echo a service.
+
+    Requests and responses are published by clients and servers that are configured to: in Python
+    by `configure_introspection()`.
+
+    examples:
+      ros2 service echo /set_it
+      ros2 service echo /set_it std_srvs/srv/SetBool --flow-style
+    """
+
+    @staticmethod
+    def add_arguments(parser: ArgumentParser) -> None:
+        """Add the arguments of the verb."""
+        add_node_arguments(parser)
+        parser.add_argument(
+            'service_name', help="Name of the ROS service to echo (e.g. '/add_two_ints')"
+        )
+        parser.add_argument(
+            'service_type',
+            nargs='?',
+            help="Type of the ROS service (e.g. 'example_interfaces/srv/AddTwoInts')",
+        )
+        add_style_arguments(parser)
+
+    @staticmethod
+    def main(args: Namespace) -> int:
+        """Print the events of a service until Ctrl-C."""
+        from rclpy.qos import QoSPresetProfiles
+
+        from amr_description.bag.topic_filter import EVENT_TOPIC
+        from amr_description.cli import graph
+        from amr_description.cli.discovery import wait_for_discovery
+        from amr_description.cli.echo_printer import style_of
+        from amr_description.cli.names import full_name
+        from amr_description.cli.session import open_session
+        from amr_description.ros.message_text import to_csv, to_yaml
+        from amr_description.ros.message_types import service_type
+
+        style = style_of(args)
+
+        def show(event: Any) -> None:
+            text = to_csv(event, style) if args.csv else f'{to_yaml(event, style)}---'
+            print(text, flush=True)
+
+        with open_session(use_sim_time=args.use_sim_time) as session:
+            node = session.node
+            name = full_name(node, args.service_name, 'a service')
+            wait_for_discovery(
+                session, args.spin_time, lambda: bool(graph.types_of_service(node, name))
+            )
+            types = (
+                [args.service_type] if args.service_type else graph.types_of_service(node, name)
+            )
+            if not types:
+                known = [each for each, _ in graph.services(node)]
+                raise AmrError(
+                    f"Could not load the type for the passed service '{name}'"
+                    f'{did_you_mean(name, known)}'
+                )
+            topic = f'{name}{EVENT_TOPIC}'
+            if not node.count_publishers(topic):
+                print(
+                    f"WARNING: nobody publishes on '{topic}' yet: clients and servers do so once "
+                    'they are configured to, in Python by configure_introspection()',
+                    file=sys.stderr,
+                )
+            profile = QoSPresetProfiles.SERVICES_DEFAULT.value
+            node.create_subscription(service_type(types[0]).Event, topic, show, profile)
+            session.serve()
+        return 0
+
+
 def _call(session: 'Session', client: 'Client', request: Any, timeout: float | None) -> None:
     """Print a request and its response. Raises AmrError."""
     from amr_description.cli.service_calls import response_to
@@ -148,6 +227,7 @@ def _explain_absence(session: 'Session', client: 'Client') -> str:
 
 VERBS = {
     'call': f'{__name__}:CallVerb',
+    'echo': f'{__name__}:EchoVerb',
     'find': 'amr_description.cli.graph_verbs:SERVICE_FIND',
     'info': 'amr_description.cli.graph_verbs:ServiceInfo',
     'list': 'amr_description.cli.graph_verbs:SERVICE_LIST',

@@ -38,7 +38,7 @@ FEW_LINES = 80
 # tf_transformations.
 BUDGETS = {
     'modules': 833,
-    'code lines': 95_081,
+    'code lines': 95_148,
     'small modules of one importer beside them': 42,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

@@ -13,13 +13,15 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable
 from typing import Any, TYPE_CHECKING
 
-from amr_description.cli.arguments import add_graph_arguments, nonnegative_int, positive_float
+from amr_description.cli.arguments import (
+    add_graph_arguments,
+    add_style_arguments,
+    positive_float,
+)
 from amr_description.cli.qos_arguments import add_qos_arguments
 
 if TYPE_CHECKING:
     from amr_description.cli.session import Session
-
-_TRUNCATE_LENGTH = 128
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -66,37 +68,7 @@ def _add_selection(parser: ArgumentParser) -> None:
 
 
 def _add_appearance(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        '--csv',
-        action='store_true',
-        help='Output all recursive fields separated by commas (e.g. for plotting)',
-    )
-    parser.add_argument(
-        '--full-length',
-        '-f',
-        action='store_true',
-        help='Output all elements for arrays, bytes, and string with a length > '
-        "'--truncate-length', by default they are truncated after '--truncate-length' "
-        "elements with '...'",
-    )
-    parser.add_argument(
-        '--truncate-length',
-        '-l',
-        type=nonnegative_int,
-        default=_TRUNCATE_LENGTH,
-        help=f'The length to truncate arrays, bytes, and string to (default: {_TRUNCATE_LENGTH})',
-    )
-    parser.add_argument(
-        '--no-arr', action='store_true', help="Don't print array fields of messages"
-    )
-    parser.add_argument(
-        '--no-str', action='store_true', help="Don't print string fields of messages"
-    )
-    parser.add_argument(
-        '--flow-style',
-        action='store_true',
-        help='Print arrays in one line (not available with csv format)',
-    )
+    add_style_arguments(parser)
     parser.add_argument('--raw', action='store_true', help='Echo the raw binary representation')
     parser.add_argument(
         '--include-message-info',

@@ -149,3 +149,23 @@ def test_types_are_found_by_either_form_of_their_names(find, name):
     for wrong in (last, f'{package}/{kind}', f'{package}/other/{last}', '', '/'):
         with pytest.raises(AmrError, match='is not written as|has no'):
             find(wrong)
+
+
+def test_requests_and_responses_of_a_service_are_echoed():
+    with running_node('introspected_node.py'), started('service', 'echo', '/seen') as echo:
+        with started('service', 'call', '-r', '5', '/seen', SET_BOOL, '{data: true}'):
+            echo.expect(r'(?s)event_type: 1\n.*?request:\n- data: true\nresponse: \[\]\n---')
+            echo.expect(r'(?s)event_type: 2\n.*?response:\n- success: true\n  message: seen\n---')
+        assert echo.end(signal.SIGINT) == signal.SIGINT
+        assert 'Traceback' not in echo.output
+
+
+def test_a_service_that_shows_nothing_or_is_not_there_is_told():
+    with running_node('introspected_node.py'):
+        with started('service', 'echo', '/unseen', '--csv') as echo:
+            echo.expect("WARNING: nobody publishes on '/unseen/_service_event' yet")
+            assert echo.end(signal.SIGINT) == signal.SIGINT
+        result = ros2('service', 'echo', '/unsee')
+        assert result.returncode == 1
+        assert "Could not load the type for the passed service '/unsee'" in result.stderr
+        assert 'did you mean' in result.stderr
