@@ -22,8 +22,7 @@ rclpy as every node of this package uses it; start with ``runtime.py``.
 ``service_calls.py``      wait for something, and call services, in a program that then ends
 ``wait_clock.py``         the time for which a program has waited, on a busy machine too
 ``polled_topic.py``       a subscription without a callback
-``topic_thread.py``       a subscription with a thread that takes messages when they matter
-``callback_thread.py``    subscriptions with a thread that calls their callbacks
+``subscription_thread.py`` subscriptions with a thread that calls their callbacks
 ``endpoints.py``          publishers and subscriptions of the graph, by their nodes
 ``local_participants.py`` DDS participants on this host, from the UDP ports in use
 ``node_lists.py``         what each participant says of its nodes and their endpoints

@@ -16,7 +16,7 @@ callbacks                              caught by
 =====================================  ======================================================
 of subscriptions, timers, services     :func:`guard`, which names the topic or the service
 of actions, events, clients; tasks     ``runtime.spin()``
-served by a thread of their own        ``callback_thread.py``, ``topic_thread.py``
+served by a thread of their own        ``subscription_thread.py``
 between two cycles of a control loop   ``LoopThread.submit()``: its future raises
 of controllers and hardware            ``control/``: the part is deactivated, and its chain
 =====================================  ======================================================

@@ -73,14 +73,14 @@ class PolledTopic(Generic[Sample]):
         self._node = node
         if qos is None:
             qos = QoSProfile(depth=depth, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._subscription = node.create_subscription(
+        self.subscription = node.create_subscription(
             message_type, topic, _ignore, qos, callback_group=NeverCalled(), raw=True
         )
 
     @property
     def topic(self) -> str:
         """Its full name."""
-        return self._subscription.topic_name
+        return self.subscription.topic_name
 
     def take(self) -> Sample | None:
         """
@@ -90,7 +90,7 @@ class PolledTopic(Generic[Sample]):
         """
         while True:
             try:
-                data = take_message(self._subscription)
+                data = take_message(self.subscription)
             except InvalidHandle:
                 return None
             if data is None:
@@ -108,7 +108,7 @@ class PolledTopic(Generic[Sample]):
     def take_numbered(self) -> NumberedMessage | None:
         """Return the next message as it came, as :meth:`take` does a sample of it."""
         try:
-            taken = take_with_info(self._subscription)
+            taken = take_with_info(self.subscription)
         except InvalidHandle:
             return None
         if taken is None:
@@ -119,7 +119,7 @@ class PolledTopic(Generic[Sample]):
 
     def destroy(self) -> None:
         """Unsubscribe."""
-        self._node.destroy_subscription(self._subscription)
+        self._node.destroy_subscription(self.subscription)
 
 
 class PollingNode(Node):

@@ -54,7 +54,6 @@ __all__ = [
     'share_clock',
     'SubscriptionWaiter',
     'take_message',
-    'take_received',
     'take_with_info',
     'takes_info',
     'UnknownROSArgsError',
@@ -175,20 +174,6 @@ def cancel_tasks(executor: Executor) -> None:
     """Cancel the coroutines of callbacks that still await something, for an executor at rest."""
     for task, *_ in executor._tasks:
         task.cancel()
-
-
-def take_received(subscription: Subscription) -> tuple[bytes, int] | None:
-    """
-    Take the next message of a raw subscription that no executor serves, with its arrival.
-
-    Returns:
-        The bytes of the message, and the system time when DDS received it, ns; None: none came.
-
-    Raises:
-        InvalidHandle: The subscription was destroyed.
-    """
-    taken = take_with_info(subscription)
-    return None if taken is None else (taken[0], taken[1]['received_timestamp'])
 
 
 def take_message(subscription: Subscription) -> Any | None:

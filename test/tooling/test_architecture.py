@@ -37,8 +37,8 @@ FEW_LINES = 80
 # nodes import: nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py,
 # tf_transformations.
 BUDGETS = {
-    'modules': 833,
-    'code lines': 95_148,
+    'modules': 832,
+    'code lines': 95_091,
     'small modules of one importer beside them': 42,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

@@ -37,11 +37,11 @@ from amr_description.messages.readers import reader_of
 from amr_description.messages.writers import writer_of
 from amr_description.model.robot import Robot
 from amr_description.plugin_errors import describe
-from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.layouts import serialize
 from amr_description.ros.message_types import message_type
 from amr_description.ros.parameters import add_parameter_event_qos_overrides
 from amr_description.ros.runtime import argument_errors, destroy_node, run_in_thread
+from amr_description.ros.subscription_thread import SubscriptionThread
 
 _Result = TypeVar('_Result')
 
@@ -104,7 +104,7 @@ class ControllerNode:
         self._publisher = context.publisher
         self._context = context
         self._publishers: list[Publisher] = []
-        self._inputs: CallbackThread | None = None
+        self._inputs: SubscriptionThread | None = None
         self._ports: list[Input[Any]] = []
         self._servers: list[ServiceServer | GoalServer] = []
         self.node: Node = context.publisher.make_node(name, namespace, arguments)
@@ -147,7 +147,7 @@ class ControllerNode:
 
     def _connect(self) -> None:
         if inputs := self.controller.inputs():
-            self._inputs = CallbackThread(self.node, self._context.loop_thread.fail)
+            self._inputs = SubscriptionThread(self.node, self._context.loop_thread.fail)
             for each in inputs:
                 self._subscribe(each, self._inputs)
             self._inputs.start()
@@ -183,7 +183,7 @@ class ControllerNode:
 
     # --- ports --------------------------------------------------------------------------------
 
-    def _subscribe(self, port: Input[Any], thread: CallbackThread) -> None:
+    def _subscribe(self, port: Input[Any], thread: SubscriptionThread) -> None:
         convert = reader_of(port.port)
 
         def receive(message: Any, info: Any) -> None:

@@ -169,7 +169,7 @@ class ClockProbe:
         return False
 
     def _take_log(self) -> None:
-        for message, _, _ in self._log.take() if self._log is not None else ():
+        for message, _, _ in self._log.messages() if self._log is not None else ():
             # The latest counts: what was logged long ago comes first, as the topic is latched.
             if found := _REPORT.search(message.msg):
                 text = found[1]

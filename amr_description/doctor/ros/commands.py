@@ -145,9 +145,9 @@ class CommandProbe:
         self._context.receive()
         for topic in self._topics:
             if topic.probe is not None and len(topic.seen) < _MOST:
-                topic.seen += topic.probe.take()
+                topic.seen += topic.probe.messages()
         for lock in self._locks:
-            for message, _, _ in lock.probe.take() if lock.probe is not None else ():
+            for message, _, _ in lock.probe.messages() if lock.probe is not None else ():
                 lock.value = message.data
 
     def _commands(self, topic: '_CommandTopic') -> Iterator[CommandSeen]:

@@ -81,7 +81,7 @@ class ControllersProbe:
         )
 
     def _take(self) -> None:
-        for line, _, _ in self._log.take() if self._log is not None else ():
+        for line, _, _ in self._log.messages() if self._log is not None else ():
             if line.level >= Log.WARN:
                 node = f'/{line.name.replace(".", "/")}'
                 is_error = line.level >= Log.ERROR

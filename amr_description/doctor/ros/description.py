@@ -96,7 +96,7 @@ class DescriptionProbe:
 
     def _take(self) -> None:
         for topic, probe in self._probes.items():
-            self._texts[topic].update((message.data, None) for message, *_ in probe.take())
+            self._texts[topic].update((message.data, None) for message, *_ in probe.messages())
 
 
 def _name(endpoint: TopicEndpointInfo) -> str:

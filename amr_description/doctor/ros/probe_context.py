@@ -59,7 +59,7 @@ class ProbeContext:
 
     def receive(self) -> None:
         """Take the ticks that have come."""
-        for message, received, _ in self._clock.take() if self._clock is not None else ():
+        for message, received, _ in self._clock.messages() if self._clock is not None else ():
             if len(self.ticks) < _MOST_TICKS:
                 self.ticks.append(ClockTick(nanoseconds(message.clock), received))
 

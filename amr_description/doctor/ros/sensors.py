@@ -113,7 +113,7 @@ class SensorsProbe:
 
     def _take(self) -> None:
         for topic in self._topics.values():
-            for message, received, gid in topic.probe.take():
+            for message, received, gid in topic.probe.messages():
                 topic.last[gid] = (message, received)
                 if topic.kind is Odometry:
                     topic.all.append((message, received))

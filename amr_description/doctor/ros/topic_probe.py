@@ -12,18 +12,18 @@ from typing import Any
 
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 
 from amr_description.ros.endpoints import endpoint_node
-from amr_description.ros.polled_topic import NeverCalled
+from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.publisher_gids import MessageOfPublisher, take_with_gid
 from amr_description.ros.rclpy_internals import RCLError
 
 UNKNOWN = ''
 
 
-class TopicProbe:
+class TopicProbe(PolledTopic[bytes]):
     """A subscription by best effort, which holds up nobody; only what is latched is reliable."""
 
     def __init__(
@@ -36,20 +36,10 @@ class TopicProbe:
         qos: QoSProfile | None = None,
     ) -> None:
         """``qos``: in place of best effort of that depth."""
-        self.topic = topic
-        self._node = node
+        super().__init__(node, message_type, topic, bytes, depth=depth, qos=qos)
         self._type = message_type
-        self._subscription = node.create_subscription(
-            message_type,
-            topic,
-            _ignore,
-            qos or QoSProfile(depth=depth, reliability=ReliabilityPolicy.BEST_EFFORT),
-            callback_group=NeverCalled(),
-            raw=True,
-        )
-        self._names: dict[bytes, str] = {}
 
-    def take(self) -> Iterator[tuple[Any, int, bytes]]:
+    def messages(self) -> Iterator[tuple[Any, int, bytes]]:
         """
         Yield what has come since: a message, when it came (system time, ns), its publisher.
 
@@ -66,7 +56,7 @@ class TopicProbe:
         """Yield what has come since, as bytes."""
         while True:
             try:
-                taken = take_with_gid(self._subscription)
+                taken = take_with_gid(self.subscription)
             except InvalidHandle:
                 return
             if taken is None:
@@ -76,16 +66,12 @@ class TopicProbe:
     @property
     def has_publisher(self) -> bool:
         """Whether a publisher is connected."""
-        return self._subscription.get_publisher_count() > 0
+        return self.subscription.get_publisher_count() > 0
 
     @property
     def is_connected(self) -> bool:
         """Whether all publishers of the graph are connected; one with another QoS never is."""
-        return self._subscription.get_publisher_count() >= self._node.count_publishers(self.topic)
-
-    def destroy(self) -> None:
-        """Hear nothing more."""
-        self._node.destroy_subscription(self._subscription)
+        return self.subscription.get_publisher_count() >= self._node.count_publishers(self.topic)
 
     def publishers(self) -> dict[bytes, str]:
         """Return the nodes of all publishers that are there, by gid; '' is one without a name."""
@@ -93,7 +79,3 @@ class TopicProbe:
             bytes(each.endpoint_gid): endpoint_node(each) or UNKNOWN
             for each in self._node.get_publishers_info_by_topic(self.topic)
         }
-
-
-def _ignore(_: Any) -> None:
-    pass

@@ -110,7 +110,7 @@ class TransformsProbe:
 
     def _take(self) -> None:
         for (namespace, is_static), probe in self._probes.items():
-            for message, received, gid in probe.take():
+            for message, received, gid in probe.messages():
                 for each in message.transforms:
                     parent = each.header.frame_id.removeprefix('/')
                     child = each.child_frame_id.removeprefix('/')

@@ -40,7 +40,7 @@ callback for each), 0.5 % of it for receiving them; 1000 per second take 5.0 % (
 ``use_sim_time`` with a /clock of 100 Hz adds 0.4 %.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 import math
@@ -79,7 +79,7 @@ from amr_description.ros.polled_topic import PollingNode
 from amr_description.ros.qos import LATCHED
 from amr_description.ros.readers import JOINT_STATE
 from amr_description.ros.runtime import run
-from amr_description.ros.topic_thread import TopicThread
+from amr_description.ros.subscription_thread import SubscriptionThread
 
 _WARNING_PERIOD = 5.0  # s between two equal warnings
 _LEAST_FREQUENCY = 1e-3  # Hz
@@ -150,21 +150,22 @@ class RobotStatePublisher(PollingNode):
             qos_overriding_options=QoSOverridingOptions(PUBLISHER_POLICIES),
         )
         self._apply(self._settings, self._state_for(self._settings))
-        self._joint_states = TopicThread(
-            self,
+        self._thread = SubscriptionThread(self)
+        self._joint_states = self._thread.subscribe(
             JointState,
             'joint_states',
             self._on_joint_state,
-            qos=copy(qos_profile_sensor_data),
+            copy(qos_profile_sensor_data),
+            raw=True,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(callback=_deepen),
         )
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(lambda _changed: self._set())
-        self._joint_states.start()
+        self._thread.start()
 
     def destroy_node(self) -> None:
         """Destroy the node, after the last transforms."""
-        self._joint_states.end()
+        self._thread.end()
         super().destroy_node()
 
     def _take_file(self, description: Sequence[str]) -> None:
@@ -206,7 +207,7 @@ class RobotStatePublisher(PollingNode):
         """Apply the settings that were validated last."""
         with self._lock:
             self._apply(*self._candidate)
-        self._joint_states.wake()
+        self._thread.wake()
 
     def _apply(self, settings: RobotStatePublisherSettings, state: RobotState) -> None:
         """Apply validated settings; publish what they change."""
@@ -225,16 +226,16 @@ class RobotStatePublisher(PollingNode):
             now = self.get_clock().now().nanoseconds
             self._static.publish(self._encoder.message(state.static, now))
 
-    def _on_joint_state(self, data: bytes, arrival: int) -> float:
+    def _on_joint_state(self, data: bytes, info: Mapping[str, int]) -> float:
         """Handle a serialized JointState; return for how long no other will be published, s."""
         with self._lock:
-            if not self._thin(data, arrival):
+            if not self._thin(data, info['received_timestamp']):
                 return 0.0
             earliest = self._throttle.earliest
             if earliest is None or self._settings.ignore_timestamp:
                 return 0.0
             rest = self._arrivals.rest(earliest, time.time_ns()) / NANOSECONDS
-        return rest if self._joint_states.publisher_count == 1 else 0.0
+        return rest if self._joint_states.get_publisher_count() == 1 else 0.0
 
     def _thin(self, data: bytes, arrival: int) -> bool:
         """
@@ -251,7 +252,7 @@ class RobotStatePublisher(PollingNode):
             state = self._read(data)
             names, stamp = tuple(state.names), state.stamp or now
             before, self._latest = self._latest, stamp
-            if stamp < before - _RESET_GAP and self._joint_states.publisher_count == 1:
+            if stamp < before - _RESET_GAP and self._joint_states.get_publisher_count() == 1:
                 self._throttle.forget()
             if self._time_jumps.is_stale(stamp):
                 return False

@@ -19,11 +19,11 @@ from support.ros_processes import PATIENCE
 
 from amr_description.errors import CallbackError
 from amr_description.ros import firewall
-from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.firewall import Firewall, guard, MOST_A_SECOND, refuse, REPEAT_PERIOD
 from amr_description.ros.rclpy_internals import mend_parameter_services
 from amr_description.ros.runtime import ExecutorThread, spinning
 from amr_description.ros.service_calls import wait_until
+from amr_description.ros.subscription_thread import SubscriptionThread
 
 EXECUTORS = [EventsExecutor, SingleThreadedExecutor]
 
@@ -157,7 +157,7 @@ class Guest(Node):
     def __init__(self, *, is_late=False):
         super().__init__('guest', allow_undeclared_parameters=True)
         self.raised = 0
-        self.threads = CallbackThread(self, stumble)
+        self.threads = SubscriptionThread(self, stumble)
         if not is_late:
             self.equip()
         guard(self)
@@ -200,7 +200,7 @@ def test_a_node_whose_callbacks_raise_serves_on(client, capfd, executor, is_late
     guest.threads.start()
     with spinning(guest, executor=executor):
         # EventsExecutor of rclpy 7.1.6 raises SystemError for a callback with two parameters, and
-        # takes messages from a CallbackThread.
+        # takes messages from a SubscriptionThread.
         others = ['told', 'apart'] if executor is SingleThreadedExecutor else []
         for topic in ['words', *others]:
             publisher = client.create_publisher(String, topic, 10)

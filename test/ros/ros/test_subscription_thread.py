@@ -13,9 +13,9 @@ from std_msgs.msg import String
 from support.ros_processes import PATIENCE
 
 from amr_description.ros import firewall
-from amr_description.ros.callback_thread import CallbackThread
 from amr_description.ros.firewall import Firewall
 from amr_description.ros.service_calls import wait_until
+from amr_description.ros.subscription_thread import SubscriptionThread
 
 QOS = QoSProfile(depth=10)
 
@@ -36,7 +36,7 @@ class Listener(Node):
         super().__init__('listener')
         self.heard = {topic: [] for topic in topics}
         self.numbers, self.threads, self.failures = [], set(), []
-        self.serving = CallbackThread(self, lambda: self.failures.append('bug'))
+        self.serving = SubscriptionThread(self, lambda: self.failures.append('bug'))
         for topic in topics:
             self.serving.subscribe(String, topic, self.callback_of(topic), QOS)
         self.serving.start()
@@ -96,7 +96,7 @@ def test_the_end_removes_thread_and_subscriptions(talker):
 
 def test_one_that_was_never_started_ends_too(talker):
     node = Node('listener')
-    serving = CallbackThread(node, list)
+    serving = SubscriptionThread(node, list)
     serving.subscribe(String, 'left', print, QOS)
     serving.end()
     assert not list(node.subscriptions)

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""Topics that no executor serves: polled, and taken in a thread of their own."""
+"""Topics that no executor serves: polled, and taken in a thread that may rest."""
 
 from collections import deque
 import threading
@@ -11,7 +11,6 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
@@ -23,7 +22,7 @@ from amr_description.ros.firewall import Firewall
 from amr_description.ros.polled_topic import PolledTopic, PollingNode
 from amr_description.ros.runtime import spin, spinning
 from amr_description.ros.service_calls import wait_until
-from amr_description.ros.topic_thread import TopicThread
+from amr_description.ros.subscription_thread import SubscriptionThread
 
 LONG = 600.0  # s of rest
 
@@ -63,16 +62,16 @@ class Listener(PollingNode):
     def __init__(self, rests=(), **options):
         super().__init__('listener', **options)
         self.words, self.arrivals, self.rests = [], [], rests
-        self.thread = TopicThread(self, String, 'words', self.hear, qos=QoSProfile(depth=10))
+        self.thread = SubscriptionThread(self)
+        self.subscription = self.thread.subscribe(String, 'words', self.hear, 10, raw=True)
         self.thread.start()
 
-    def hear(self, data, arrival):
-        word = deserialize_message(data, String).data
-        if word == 'bug':
+    def hear(self, data, info):
+        if (word := deserialize_message(data, String).data) == 'bug':
             raise ValueError(word)
         self.words.append(word)
-        self.arrivals.append(arrival)
-        return LONG if word in self.rests else 0.0
+        self.arrivals.append(info['received_timestamp'])
+        return LONG if word in self.rests else None
 
     def destroy_node(self):
         self.thread.end()
@@ -82,7 +81,7 @@ class Listener(PollingNode):
 def test_the_thread_of_a_node_that_nobody_destroys_ends_with_the_context(talker):
     """As when a request to stop comes while the node is made."""
     listener = Listener()
-    threads = {each for each in threading.enumerate() if each.name == 'words'}
+    threads = {each for each in threading.enumerate() if each.name == 'listener subscriptions'}
     assert len(threads) == 1
     rclpy.try_shutdown()
     for thread in threads:
@@ -109,7 +108,7 @@ def test_what_comes_in_a_rest_waits_for_its_end(talker):
         talker.until(lambda: len(listener.words) == 2)
         listener.thread.wake()
         talker.until(lambda: len(listener.words) == 4)
-        assert listener.thread.publisher_count == 1
+        assert listener.subscription.get_publisher_count() == 1
     assert listener.words == ['one', 'two', 'three', 'four']
 
 
@@ -119,7 +118,7 @@ def test_the_end_of_the_node_ends_a_rest_and_a_wait(talker):
     talker.until(lambda: listener.words)
     listener.destroy_node()
     Listener().destroy_node()
-    assert not [each for each in threading.enumerate() if each.name == 'words']
+    assert not [each for each in threading.enumerate() if each.name == 'listener subscriptions']
 
 
 @pytest.mark.parametrize('executor', [EventsExecutor, SingleThreadedExecutor])
