@@ -22,7 +22,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import BringupError
 from amr_description.model.description_file import description_at
 from amr_description.model.frames import Transform
-from amr_description.model.gazebo_x.translation import translate
+from amr_description.model.gazebo.translation import translate
 from amr_description.model.sensors import Camera, Lidar
 from amr_description.model.urdf import parse
 from amr_description.ros.service_calls import wait_until

@@ -593,6 +593,20 @@ def own_python_files():
     return sorted(path for path in found if not {'build', '__pycache__'} & set(path.parts))
 
 
+def test_modules_that_others_import_are_there():
+    """Of benchmarks and scripts: no test runs all of them."""
+    absent = [
+        f'{where(path, node.lineno)}: {node.module}'
+        for path in own_python_files()
+        if not path.is_relative_to(PACKAGE)
+        for node in ast.walk(tree_of(path))
+        if isinstance(node, ast.ImportFrom) and not node.level
+        if (node.module or '').startswith('amr_description.')
+        if node.module not in SOURCES
+    ]
+    assert not absent
+
+
 def test_files_begin_with_copyright_and_docstring():
     wrong = [
         where(path)
