@@ -23,12 +23,14 @@ class Watched:
         sensors: Topics of sensors.
         messages: Topics whose latest message is shown.
         fields: By topic, the paths of the numbers that are plotted.
+        whole: Topics of clouds that are shown with all their points.
     """
 
     parts: frozenset[Part] = frozenset()
     sensors: frozenset[str] = frozenset()
     messages: frozenset[str] = frozenset()
     fields: Mapping[str, frozenset[str]] = field(default_factory=dict)
+    whole: frozenset[str] = frozenset()
 
     @property
     def latest(self) -> frozenset[tuple[Channel, str]]:

@@ -14,9 +14,8 @@ from typing import Literal, Protocol, TypeAlias
 import numpy as np
 
 from amr_description.errors import ViewerError
+from amr_description.viewer.samples import MOST_POINTS
 
-MOST_POINTS = 20_000
-"""Points of a cloud that are sent."""
 _KINDS = {1: 'i1', 2: 'u1', 3: 'i2', 4: 'u2', 5: 'i4', 6: 'u4', 7: 'f4', 8: 'f8'}
 """``PointField.datatype`` -> type of NumPy."""
 _PACKED = {'rgb', 'rgba'}
@@ -66,9 +65,10 @@ def thinned(
     data: np.ndarray,
     *,
     is_bigendian: bool = False,
+    most: int = MOST_POINTS,
 ) -> ThinCloud:
     """
-    Return at most :data:`MOST_POINTS` points of a cloud, evenly taken from its order.
+    Return at most ``most`` points of a cloud, evenly taken from its order.
 
     Args:
         count: Points.
@@ -76,6 +76,7 @@ def thinned(
         fields: Those of a point.
         data: The bytes.
         is_bigendian: Of its numbers.
+        most: Points.
 
     Raises:
         ViewerError: The cloud has no x, y, z, or does not fit its bytes.
@@ -87,7 +88,7 @@ def thinned(
     known = {field.name: field for field in fields}
     if not known.keys() >= {'x', 'y', 'z'}:
         raise ViewerError(f'a cloud has no x, y, z; its fields: {", ".join(known) or "none"}')
-    thin = max(1, -(-count // MOST_POINTS))
+    thin = max(1, -(-count // most))
     records = data[: count * step].reshape(count, step)[::thin]
     order = '>' if is_bigendian else '<'
 

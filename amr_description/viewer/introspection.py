@@ -44,11 +44,12 @@ class FrameStatus:
 
     name: str
     parent: str  #: of the latest transform
-    parents: tuple[str, ...]  #: all that it had in the last seconds: more than one is an error
+    #: all that it had in the last seconds, and static ones: more than one is an error
+    parents: tuple[str, ...]
     is_static: bool
     rate: float | None  #: transforms per second
     age: float | None  #: s since the last one came; of static ones ``None``
-    topic: str  #: by which it comes: "/tf"
+    topics: tuple[str, ...]  #: by which it comes: "/tf", that of ``parent`` first
 
 
 @dataclass(frozen=True, slots=True)

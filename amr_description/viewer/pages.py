@@ -122,6 +122,7 @@ class Pages:
             frozenset().union(*(each.sensors for each in all_of)),
             frozenset().union(*(each.messages for each in all_of)),
             fields,
+            frozenset().union(*(each.whole for each in all_of)),
         )
 
     @property

@@ -148,6 +148,7 @@ class Watch:
     #: by any topic, paths of numbers, as ``ros2 topic echo --field`` has them (``position[2]``),
     #: which come of each message (see Values)
     fields: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    whole: tuple[str, ...] = ()  #: of topics, clouds of which all points come, less often
 
 
 @dataclass(frozen=True, slots=True)

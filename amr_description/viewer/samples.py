@@ -27,6 +27,10 @@ HEAD_AT = 4
 """Bytes before the head of a sample."""
 PLACE_FLOATS = 6
 """Of a place of contact: x y z (m), and the normal."""
+MOST_POINTS = 20_000
+"""Points of a cloud that are sent."""
+WHOLE_POINTS = 1_000_000
+"""… of one of ``Watch.whole``."""
 _BEGINNING = struct.Struct('<BBH')
 _ALIGNMENT = 8
 _LONGEST_HEAD = 2**16 - 4

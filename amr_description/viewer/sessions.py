@@ -248,5 +248,9 @@ def _stopped(robot: str, client: str) -> str:
 def _watched_of(message: Watch) -> Watched:
     fields = {topic: frozenset(paths) for topic, paths in message.fields.items() if paths}
     return Watched(
-        frozenset(message.parts), frozenset(message.topics), frozenset(message.messages), fields
+        frozenset(message.parts),
+        frozenset(message.topics),
+        frozenset(message.messages),
+        fields,
+        frozenset(message.whole),
     )

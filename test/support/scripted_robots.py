@@ -284,12 +284,12 @@ TOPICS = Topics(
 )
 TRANSFORMS = Transforms(
     (
-        FrameStatus('odom', 'world', ('world',), True, None, None, '/tf_static'),
-        FrameStatus('base_footprint', 'odom', ('odom',), False, 50.0, 0.02, '/tf'),
+        FrameStatus('odom', 'world', ('world',), True, None, None, ('/tf_static',)),
+        FrameStatus('base_footprint', 'odom', ('odom',), False, 50.0, 0.02, ('/tf',)),
         FrameStatus(
-            'base_link', 'base_footprint', ('base_footprint',), True, None, None, '/tf_static'
+            'base_link', 'base_footprint', ('base_footprint',), True, None, None, ('/tf_static',)
         ),
-        FrameStatus('laser', 'base_link', ('base_link', 'odom'), False, 10.0, 3.2, '/tf'),
+        FrameStatus('laser', 'base_link', ('base_link', 'odom'), False, 10.0, 3.2, ('/tf',)),
     ),
     {'/tf': (DRIVE, '/robot_state_publisher'), '/tf_static': ('/robot_state_publisher',)},
 )

@@ -177,6 +177,7 @@ function watch(): void {
     topics: [...tabs.topics, ...view.topics],
     messages: tabs.watches.includes('topics') ? channels.messages : [], // of the panel topics
     fields: channels.fields,
+    whole: sensing.whole,
   });
 }
 

@@ -601,15 +601,15 @@ export interface FrameStatus {
   name: string;
   /** of the latest transform */
   parent: string;
-  /** all that it had in the last seconds: more than one is an error */
+  /** all that it had in the last seconds, and static ones: more than one is an error */
   parents: string[];
   is_static: boolean;
   /** transforms per second */
   rate: number | null;
   /** s since the last one came; of static ones null */
   age: number | null;
-  /** by which it comes: "/tf" */
-  topic: string;
+  /** by which it comes: "/tf", that of `parent` first */
+  topics: string[];
 }
 
 /** The TF tree, to pages that watch `transforms`, each half a second. */
@@ -960,6 +960,8 @@ export interface Watch {
    * which come of each message (see Values)
    */
   fields?: Record<string, string[]>;
+  /** of topics, clouds of which all points come, less often */
+  whole?: string[];
 }
 
 /** Run the simulation, or pause it. */
@@ -1265,3 +1267,9 @@ export const HEAD_AT = 4;
 
 /** Of a place of contact: x y z (m), and the normal. */
 export const PLACE_FLOATS = 6;
+
+/** Points of a cloud that are sent. */
+export const MOST_POINTS = 20000;
+
+/** … of one of `Watch.whole`. */
+export const WHOLE_POINTS = 1000000;

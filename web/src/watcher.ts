@@ -9,6 +9,7 @@ export interface Shown {
   topics?: Iterable<string>; // of sensors
   messages?: Iterable<string>;
   fields?: Readonly<Record<string, readonly string[]>>;
+  whole?: Iterable<string>; // topics of clouds
 }
 
 const NOTHING = JSON.stringify(watchOf({ parts: [] }));
@@ -43,7 +44,7 @@ export class Watcher {
   }
 }
 
-function watchOf({ parts, topics = [], messages = [], fields = {} }: Shown): Watch {
+function watchOf({ parts, topics = [], messages = [], fields = {}, whole = [] }: Shown): Watch {
   const pairs = sorted(Object.keys(fields)).map((topic) => [topic, sorted(fields[topic] ?? [])]);
   return {
     type: 'watch',
@@ -51,6 +52,7 @@ function watchOf({ parts, topics = [], messages = [], fields = {} }: Shown): Wat
     topics: sorted(topics).slice(0, MOST_TOPICS),
     messages: sorted(messages).slice(0, MOST_TOPICS),
     fields: Object.fromEntries(pairs.slice(0, MOST_TOPICS)) as Record<string, string[]>,
+    whole: sorted(whole).slice(0, MOST_TOPICS),
   };
 }
 

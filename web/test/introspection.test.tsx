@@ -186,19 +186,19 @@ test('the picture of nodes leaves out what nearly all nodes have', () => {
   assert.deepEqual(nodesPicture(all, true, '/nav').boxes.map(({ id }) => id)[0], 'topic /odom');
 });
 
-function frame(name: string, parents: string[], age: number | null = 0.1): FrameStatus {
+function frame(name: string, parents: string[], age: number | null = 0.1, topics = ['/tf']): FrameStatus {
   const [parent = ''] = parents;
-  return { name, parent, parents, is_static: age === null, rate: age === null ? null : 20, age, topic: '/tf' };
+  return { name, parent, parents, is_static: age === null, rate: age === null ? null : 20, age, topics };
 }
 
 test('the picture of frames marks islands, two parents, and what comes no more', () => {
   const frames = [
-    frame('base', ['odom', 'map']), frame('laser', ['base'], null), frame('arm', ['island'], 9),
+    frame('base', ['odom', 'map'], 0.1, ['/tf', '/tf_static']), frame('laser', ['base'], null), frame('arm', ['island'], 9),
   ];
-  const { boxes, edges, faults } = framesPicture({ type: 'transforms', frames, publishers: {} });
+  const { boxes, edges, faults } = framesPicture({ type: 'transforms', frames, publishers: { '/tf': ['/a', '/b'] } });
   assert.equal(faults.length, 2);
   assert.match(faults[0] ?? '', /3 trees that nothing connects: odom, map, island/);
-  assert.match(faults[1] ?? '', /base has 2 parents: odom, map/);
+  assert.match(faults[1] ?? '', /base has 2 parents: odom, map; by \/tf of \/a or \/b, and by \/tf_static of nobody now/);
   const tones = new Map(boxes.map(({ id, tone }) => [id, tone]));
   assert.deepEqual([tones.get('base'), tones.get('laser'), tones.get('arm')], ['error', undefined, 'warning']);
   assert.deepEqual(edges.map(({ tone }) => tone), ['error', 'error', 'static', undefined]);

@@ -88,8 +88,8 @@ test('a sample says how often it comes, how old it is, and what was measured', (
   const scan = sample(SCAN, 0.25, 3, Infinity, NaN);
   assert.equal(timing(scan, 9.75), '10 Hz · 0.25 s old');
   assert.equal(timing(scan, 1e9), '10 Hz'); // of another clock
-  assert.equal(measured(scan, 10), '6 rays · nearest 3.00 m');
-  assert.equal(measured(sample(SCAN, Infinity), 10), '6 rays · nothing in range');
+  assert.equal(measured(scan, 10), '4 of 6 rays · nearest 3.00 m');
+  assert.equal(measured(sample(SCAN, Infinity), 10), '1 of 6 rays · nothing in range');
   const range = {
     type: 'range', origin: ORIGIN, field_of_view: 0.1, min_range: 0, max_range: 4,
   } as const;

@@ -96,6 +96,32 @@ test('what was measured is in words, and why it is not in the view', async () =>
   assert.equal(find(panel, '.measured').dataset.tone, 'warning');
 });
 
+test('a cloud says how much of it is shown, and all of it is asked for', async () => {
+  const { sensing, panel } = shown(sensor('/points', 'cloud', 'PointCloud2'));
+  find(panel, '.switch').click();
+  const cloud = (count: number): Sample => sample({
+    type: 'cloud', origin: origin('/points', 'laser'), count, colouring: 'none', low: null, high: null,
+  }, 1, 2, 3, 4, 5, 6);
+  sensing.take(cloud(2));
+  await pulse(panel);
+  assert.deepEqual(texts(panel, '.measured'), ['2 points']);
+  assert.equal(panel.element.querySelector('.toggle'), null, 'these are all');
+  sensing.take(cloud(300_000));
+  await pulse(panel);
+  assert.deepEqual(texts(panel, '.measured'), ['2 of 300\u202f000 points']);
+  assert.deepEqual(sensing.whole, []);
+  find(panel, '.toggle').click();
+  await drawn();
+  assert.deepEqual(sensing.whole, ['/points']);
+  assert.equal(find(panel, '.toggle').getAttribute('aria-pressed'), 'true');
+  sensing.take(cloud(2));
+  await pulse(panel);
+  find(panel, '.toggle').click();
+  await drawn();
+  assert.deepEqual(sensing.whole, []);
+  find(panel, '.switch').click();
+});
+
 test('a picture is drawn once, and its place goes when it is switched off', async () => {
   Object.assign(globalThis, {
     createImageBitmap: () => Promise.resolve({ width: 4, height: 2, close: () => {} }),

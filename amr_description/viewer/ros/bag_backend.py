@@ -305,7 +305,7 @@ class BagBackend:
                     frames.is_static(each.name),
                     None,
                     None,
-                    frames.topic(each.name),
+                    (frames.topic(each.name),),
                 )
                 for each in sorted(frames.tree(at), key=lambda each: each.name)
             ),

@@ -55,6 +55,7 @@ class BagSamples:
 
     def watch(self, watched: Watched) -> None:
         """Make samples of these topics, as far as there are."""
+        self._whole = watched.whole
         keys: set[_Key] = {('sensor', each) for each in watched.sensors & self._sensors.keys()}
         keys |= {('message', each) for each in watched.messages & self._recorded.topics.keys()}
         self._feeds = {key: self._feeds.get(key) or self._feed(key) for key in keys}
@@ -83,7 +84,9 @@ class BagSamples:
             with self._reading:
                 *_, message = self._reader.messages([topic], time, time)
             if channel == 'sensor':
-                return sample_of(self._sensors[topic].message, message.data, topic, rate)
+                kind = self._sensors[topic].message
+                is_whole = topic in self._whole
+                return sample_of(kind, message.data, topic, rate, is_whole=is_whole)
             layout = layout_of(message_type(kind, f'The type of {topic}'))
             return message_feed.sample_of(layout, message.data, topic, rate)
         except (AmrError, ValueError) as error:

@@ -52,7 +52,12 @@ from amr_description.viewer.protocol import (
     Unreadable,
 )
 from amr_description.viewer.ros.navigation_samples import frame_name, grid_sample, path_sample
-from amr_description.viewer.samples import encode_sample, PLACE_FLOATS
+from amr_description.viewer.samples import (
+    encode_sample,
+    MOST_POINTS,
+    PLACE_FLOATS,
+    WHOLE_POINTS,
+)
 
 MOST_RAYS = 20_000
 """Ranges of a scan that are sent."""
@@ -68,7 +73,9 @@ Converter: TypeAlias = Callable[[bytes, Origin], tuple[Head, Parts]]
 """Makes a head, and what follows it, of a message."""
 
 
-def sample_of(message_type: str, data: bytes, topic: str, rate: float | None) -> bytes:
+def sample_of(
+    message_type: str, data: bytes, topic: str, rate: float | None, *, is_whole: bool = False
+) -> bytes:
     """
     Return the frame of a sample.
 
@@ -77,11 +84,13 @@ def sample_of(message_type: str, data: bytes, topic: str, rate: float | None) ->
         data: The message.
         topic: That it came by.
         rate: Messages per second of the topic; None: not known yet.
+        is_whole: Whether all points of a cloud are shown.
     """
+    convert = _whole_cloud if is_whole and message_type == CLOUD else CONVERTERS[message_type]
     origin = Origin(topic, '', 0.0, rate)
     try:
         with np.errstate(all='ignore'):  # what is published may be any number
-            return encode_sample(*CONVERTERS[message_type](data, origin))
+            return encode_sample(*convert(data, origin))
     except (ValueError, ViewerError) as error:
         return unreadable(topic, str(error), rate)
     except Exception as error:  # a bug of ours, which must not end what else the page shows
@@ -111,16 +120,20 @@ def _scan(data: bytes, origin: Origin) -> tuple[Head, Parts]:
     return head, (np.ascontiguousarray(scan.ranges[::thin], '<f4'),)
 
 
-def _cloud(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+def _cloud(data: bytes, origin: Origin, most: int = MOST_POINTS) -> tuple[Head, Parts]:
     cloud: CloudData = readers.CLOUD.read(data)
     step, count = cloud.point_step, cloud.width * cloud.height
     octets, row = cloud.data, cloud.width * cloud.point_step
     if cloud.height > 1 and 0 < row < cloud.row_step <= len(octets) // cloud.height:
         rows = octets[: cloud.height * cloud.row_step].reshape(cloud.height, cloud.row_step)
         octets = rows[:, :row].reshape(-1)
-    found = thinned(count, step, cloud.fields, octets, is_bigendian=cloud.is_bigendian)
+    found = thinned(count, step, cloud.fields, octets, is_bigendian=cloud.is_bigendian, most=most)
     head = Cloud(_origin(origin, cloud.header), count, found.colouring, found.low, found.high)
     return head, (found.points, np.ascontiguousarray(found.colours))
+
+
+def _whole_cloud(data: bytes, origin: Origin) -> tuple[Head, Parts]:
+    return _cloud(data, origin, WHOLE_POINTS)
 
 
 def _image(data: bytes, origin: Origin) -> tuple[Head, Parts]:

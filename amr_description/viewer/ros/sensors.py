@@ -26,6 +26,8 @@ _FASTEST = {
 """Samples per second that pages are sent, at most."""
 _SLOW = {'picture', 'cloud', 'map', 'path'}
 """What takes long enough to be left to another thread."""
+_WHOLE_PERIOD = 0.5
+"""s between two clouds of which all points are sent, at least."""
 KEPT = {'map', 'path'}
 """What may be published once, for those who subscribe later, too."""
 
@@ -35,18 +37,32 @@ class SensorFeed(NewestFeed):
 
     def __init__(self, node: Node, info: SensorInfo, source: TopicSource | None = None) -> None:
         self.info = info
-        self._period = 1.0 / _FASTEST[info.kind]
+        self._is_whole = False
         super().__init__(partial(_subscribe, node, info, source))
+
+    def set_whole(self, *, is_whole: bool) -> None:
+        """Show all points of a cloud, or some, from now on."""
+        if self._is_whole and not is_whole:
+            self._due = 0.0
+        self._is_whole = is_whole
 
     def _unreadable(self, reason: str) -> bytes:
         return unreadable(self.info.topic, reason)
 
     def _next_due(self, due: float, now: float, message: NumberedMessage) -> float:  # noqa: ARG002
-        return max(due + self._period, now)
+        period = _WHOLE_PERIOD if self._is_whole else 1.0 / _FASTEST[self.info.kind]
+        return max(due + period, now)
 
     def _conversion(self, message: NumberedMessage) -> Callable[[], bytes]:
         rate = self._rate.value
-        return partial(sample_of, self.info.message, message.data, self.info.topic, rate)
+        return partial(
+            sample_of,
+            self.info.message,
+            message.data,
+            self.info.topic,
+            rate,
+            is_whole=self._is_whole,
+        )
 
     def _takes_long(self, message: NumberedMessage) -> bool:  # noqa: ARG002
         return self.info.kind in _SLOW

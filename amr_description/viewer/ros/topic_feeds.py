@@ -100,6 +100,8 @@ class TopicFeeds:
             feed.settle()
             if isinstance(feed, FieldFeed):
                 feed.set_paths(watched.fields[key.topic])
+            elif isinstance(feed, SensorFeed):
+                feed.set_whole(is_whole=key.topic in watched.whole)
 
     def _keys(self, watched: Watched) -> Iterable[_Key]:
         for topic in watched.sensors & self._sensors.keys():

@@ -27,36 +27,45 @@ _MOST = 1000
 
 
 class _Frame:
-    """A frame that is a child."""
+    """A frame that is a child: of whom, for good and for as long as that goes on coming."""
 
-    def __init__(self, topic: str, *, is_static: bool) -> None:
-        self.topic = topic
-        self.is_static = is_static
-        self.parents: dict[str, float] = {}
-        """When each came last, the latest at the end."""
-        self.times: deque[float] = deque()
+    def __init__(self) -> None:
+        self.static: dict[str, str] = {}
+        """The topic of each parent, the latest at the end."""
+        self.moving: dict[str, str] = {}
+        self._came: dict[str, float] = {}
+        """When each moving parent came last."""
+        self._times: deque[float] = deque()
 
-    def add(self, parent: str, at: float) -> None:
-        self.parents.pop(parent, None)
-        self.parents[parent] = at
-        self.times.append(at)
+    def add(self, parent: str, topic: str, at: float, *, is_static: bool) -> None:
+        parents = self.static if is_static else self.moving
+        parents.pop(parent, None)
+        parents[parent] = topic
+        if not is_static:
+            self._came[parent] = at
+            self._times.append(at)
 
     def status(self, name: str, now: float) -> FrameStatus:
-        while len(self.times) > 1 and now - self.times[0] > _WINDOW:
-            self.times.popleft()
-        parent = next(reversed(self.parents))
-        recent = {each for each, at in self.parents.items() if now - at < _WINDOW}
-        span = self.times[-1] - self.times[0]
-        rate = (len(self.times) - 1) / span if span > 0 else None
+        while len(self._times) > 1 and now - self._times[0] > _WINDOW:
+            self._times.popleft()
+        moving = {each: by for each, by in self.moving.items() if now - self._came[each] < _WINDOW}
+        is_static = not moving and bool(self.static)
+        of_kind = self.static if is_static else self.moving
+        parent = next(reversed(of_kind))
+        all_of_them = self.static | moving
         return FrameStatus(
             name,
             parent,
-            (parent, *sorted(({*self.parents} if self.is_static else recent) - {parent})),
-            self.is_static,
-            None if self.is_static else rate,
-            None if self.is_static else max(0.0, now - self.times[-1]),
-            self.topic,
+            (parent, *sorted(all_of_them.keys() - {parent})),
+            is_static,
+            None if is_static else self._rate(),
+            None if is_static else max(0.0, now - self._times[-1]),
+            tuple(dict.fromkeys((of_kind[parent], *all_of_them.values()))),
         )
+
+    def _rate(self) -> float | None:
+        span = self._times[-1] - self._times[0]
+        return (len(self._times) - 1) / span if span > 0 else None
 
 
 class TransformList:
@@ -107,10 +116,9 @@ class TransformList:
                 continue
             for each in transforms:
                 name, parent = _prefixed(prefix, each.name), _prefixed(prefix, each.parent)
-                frame = self._frames.get(name)
-                if frame is None or frame.is_static != is_static:
-                    frame = self._frames[name] = _Frame(topic.topic, is_static=is_static)
-                frame.add(parent, message.received / NANOSECONDS)
+                frame = self._frames.setdefault(name, _Frame())
+                at = message.received / NANOSECONDS
+                frame.add(parent, topic.topic, at, is_static=is_static)
 
 
 def _prefixed(prefix: str, name: str) -> str:

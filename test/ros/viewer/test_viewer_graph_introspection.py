@@ -21,6 +21,7 @@ from tf2_msgs.msg import TFMessage
 
 from amr_description.errors import AmrError
 from amr_description.launch_log import LAUNCH_LOG
+from amr_description.ros.qos import TF_STATIC
 from amr_description.viewer.requests import Publish, SetParameter
 from amr_description.viewer.ros.introspection import Introspection
 from amr_description.viewer.ros.parameters import ParameterClients
@@ -138,10 +139,42 @@ def test_frames_are_listed_with_two_parents_marked(ros, shown):
 
     found = until(introspection, told, base)
     assert {*found.parents} == {'odom', 'map'}
-    assert (found.is_static, found.topic) == (False, '/tf')
+    assert (found.is_static, found.topics) == (False, ('/tf',))
     assert 0.0 <= found.age < PATIENCE
     assert '/robot1/other' in told[-1][1].publishers['/tf']
     other.destroy_publisher(publisher)
+
+
+@pytest.mark.parametrize('static_is_first', [True, False])
+def test_a_static_parent_beside_a_moving_one_is_marked(ros, shown, static_is_first):
+    _, other, _ = ros
+    introspection, told = shown
+    static = other.create_publisher(TFMessage, '/tf_static', TF_STATIC)
+    moving = other.create_publisher(TFMessage, '/tf', 100)
+
+    def send(publisher, parent):
+        transform = TransformStamped(child_frame_id='base')
+        transform.header.frame_id = parent
+        publisher.publish(TFMessage(transforms=[transform]))
+
+    def base(message):
+        if not static_is_first and len(seen) == 1:
+            send(static, 'footprint')
+        send(moving, 'odom')
+        found = {each.name: each for each in message.frames}.get('base')
+        if found is not None:
+            seen.add(found.parents)
+        return found if found and len(found.parents) > 1 else None
+
+    seen = set()
+    if static_is_first:
+        send(static, 'footprint')
+    introspection.watch({'transforms'}, ())
+    found = until(introspection, told, base)
+    assert (found.parent, found.parents) == ('odom', ('odom', 'footprint'))
+    assert (found.is_static, found.topics) == (False, ('/tf', '/tf_static'))
+    other.destroy_publisher(static)
+    other.destroy_publisher(moving)
 
 
 def test_warnings_are_kept_and_all_lines_are_told_to_who_looks(ros, shown):

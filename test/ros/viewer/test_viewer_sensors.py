@@ -9,15 +9,16 @@ from hypothesis import given, strategies as st
 import numpy as np
 import pytest
 from rclpy.serialization import serialize_message
-from support.sensor_messages import classic_contacts, cloud, gz_contacts, image, scan
+from support.sensor_messages import classic_contacts, cloud, gz_contacts, header, image, scan
 
 from amr_description.clock import NANOSECONDS
 from amr_description.ros.message_types import type_name
 from amr_description.ros.polled_topic import NumberedMessage
+from amr_description.sensor_msgs_py.point_cloud2 import create_cloud_xyz32
 from amr_description.viewer.backend import Watched
 from amr_description.viewer.graph import SENSORS
 from amr_description.viewer.protocol import SensorInfo
-from amr_description.viewer.ros import sensors
+from amr_description.viewer.ros import sensors, topic_feeds
 from amr_description.viewer.ros.sensor_samples import CONVERTERS, MOST_RAYS, sample_of
 from amr_description.viewer.ros.topic_feeds import TopicFeeds
 from amr_description.viewer.ros.topic_rate import Rate
@@ -113,6 +114,27 @@ def test_samples_come_at_a_bounded_rate(opened):
         topic.publish(scan())
         sent.append(feed.take(100.0 + tick / 240, is_wanted=True))
     assert 29 <= sum(each is not None for each in sent) <= 32
+
+
+def test_what_is_shown_whole_comes_less_often(feeds, opened, monkeypatch):
+    feeds.watch(Watched(sensors=frozenset({'/scan'}), whole=frozenset({'/scan'})))
+    feeds.find([SCAN])
+    (topic,) = opened
+    sent = 0
+    for tick in range(240):
+        monkeypatch.setattr(topic_feeds.time, 'monotonic', lambda tick=tick: 100.0 + tick / 240)
+        topic.publish(scan())
+        sent += len(feeds.take({('sensor', '/scan')}))
+    assert 2 <= sent <= 3
+
+
+@pytest.mark.parametrize(('is_whole', 'expected'), [(False, 15_000), (True, 30_000)])
+def test_a_cloud_is_sent_in_part_or_whole(is_whole, expected):
+    points = create_cloud_xyz32(header(), np.ones((30_000, 3)))
+    data, kind = serialize_message(points), 'sensor_msgs/msg/PointCloud2'
+    frame = sample_of(kind, data, '/points', None, is_whole=is_whole)
+    assert head_of(frame)['count'] == 30_000
+    assert len(rest_of(frame)) == 12 * expected
 
 
 def test_a_message_package_that_is_not_there_is_said_once(feeds):

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from amr_description.errors import ViewerError
-from amr_description.viewer.clouds import MOST_POINTS, thinned
+from amr_description.viewer.clouds import thinned
+from amr_description.viewer.samples import MOST_POINTS
 
 
 @dataclass

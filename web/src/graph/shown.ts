@@ -49,7 +49,7 @@ export interface PicturedFrames extends Pictured {
 }
 
 /** The TF tree, or trees. */
-export function framesPicture({ frames }: Transforms): PicturedFrames {
+export function framesPicture({ frames, publishers }: Transforms): PicturedFrames {
   const faults: string[] = [];
   const boxes: GraphBox[] = [];
   const edges: GraphEdge[] = [];
@@ -60,13 +60,14 @@ export function framesPicture({ frames }: Transforms): PicturedFrames {
   }
   const tone = roots.length > 1 ? ('warning' as const) : undefined;
   boxes.push(...roots.map((name) => box(name, ['root'], tone)));
-  for (const { name, parents, is_static: isStatic, rate, age } of frames) {
+  for (const { name, parents, topics, is_static: isStatic, rate, age } of frames) {
     const isOld = age !== null && age > Math.max(OLD, rate === null ? 0 : 10 / rate);
     const words = isStatic
       ? 'static'
       : `${rate === null ? '–' : fixed(rate, rate < 10 ? 1 : 0)} Hz, ${fixed(age, 2)} s old`;
     if (parents.length > 1) {
-      faults.push(`${name} has ${parents.length} parents: ${parents.join(', ')}`);
+      const by = topics.map((topic) => `${topic} of ${publishers[topic]?.join(' or ') ?? 'nobody now'}`);
+      faults.push(`${name} has ${parents.length} parents: ${parents.join(', ')}; by ${by.join(', and by ')}`);
     }
     boxes.push(box(name, [words], parents.length > 1 ? 'error' : isOld ? 'warning' : undefined));
     for (const parent of parents) {

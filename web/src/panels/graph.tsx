@@ -131,10 +131,14 @@ function FrameFacts({ transforms, frame }: { transforms: Transforms; frame: stri
       <Facts
         pairs={[
           ['Parent', found.parents.join(', ')],
-          ['Comes by', found.topic],
-          ['Published by', transforms.publishers[found.topic]?.join(' or ') ?? 'nobody now'],
+          ['Comes by', found.topics.join(', ')],
+          ['Published by', publishersOf(transforms, found.topics)],
         ]}
       />
     </Section>
   );
+}
+
+function publishersOf({ publishers }: Transforms, topics: readonly string[]): string {
+  return [...new Set(topics.flatMap((topic) => publishers[topic] ?? []))].join(' or ') || 'nobody now';
 }

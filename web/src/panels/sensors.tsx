@@ -4,7 +4,7 @@
 import { effect, type ReadonlySignal } from '@preact/signals';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { App, Panel } from '../app';
-import type { Picture, SensorInfo } from '../protocol';
+import { MOST_POINTS, type Picture, type SensorInfo } from '../protocol';
 import type { Sample } from '../samples';
 import { PictureCanvas } from '../sensors/canvas';
 import type { Sensing } from '../sensors/sensing';
@@ -95,7 +95,27 @@ function Words({ info, sensing, state }: SensorProps) {
       <span class="fine measured" data-tone={isUnreadable ? 'warning' : undefined}>
         {homeless(info, sample, now) ?? measured(sample, now.time)}
       </span>
+      {info.kind === 'cloud' && <Whole info={info} sensing={sensing} sample={sample} />}
     </>
+  );
+}
+
+/** Has all points of a cloud shown, where there are more than are shown at first. */
+function Whole({ info, sensing, sample }: { info: SensorInfo; sensing: Sensing; sample: Sample }) {
+  const isWhole = sensing.isWhole(info);
+  if (!isWhole && (sample.head.type !== 'cloud' || sample.head.count <= MOST_POINTS)) {
+    return null;
+  }
+  return (
+    <button
+      type="button"
+      class="toggle"
+      aria-pressed={isWhole}
+      title="All points, twice a second at most; else an even part of them, ten times a second"
+      onClick={() => sensing.setWhole(info.topic, !isWhole)}
+    >
+      All points
+    </button>
   );
 }
 

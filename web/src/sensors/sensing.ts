@@ -52,6 +52,22 @@ export class Sensing {
     this.settle();
   }
 
+  /** Whether all points of a cloud are shown, not only as many as are drawn quickly. */
+  isWhole({ topic }: SensorInfo): boolean {
+    void this.switches.value;
+    return recall(`whole.${topic}`) === 'yes';
+  }
+
+  setWhole(topic: string, on: boolean): void {
+    remember(`whole.${topic}`, on ? 'yes' : 'no');
+    this.switches.value += 1;
+  }
+
+  /** The topics of clouds that are shown whole. */
+  get whole(): readonly string[] {
+    return this.shown.filter((each) => each.kind === 'cloud' && this.isWhole(each)).map(({ topic }) => topic);
+  }
+
   /** Those that are on. */
   get shown(): readonly SensorInfo[] {
     return this.here.filter((each) => this.isOn(each));

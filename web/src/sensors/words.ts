@@ -3,7 +3,7 @@
 /** What a sample says, in words. */
 import { fixed, UNKNOWN } from '../format';
 import type { Contacts, OccupancyGrid, Picture } from '../protocol';
-import type { Sample } from '../samples';
+import { pointsOf, type Sample } from '../samples';
 
 const OLDEST_CONTACT = 0.5; // s; some publish only while there is a contact
 const OLDEST = 3600; // s; more is the difference of two clocks
@@ -18,12 +18,13 @@ export function timing({ head }: Sample, now: number): string {
 }
 
 /** What it has measured, on one line; `now`: s. */
-export function measured({ head, floats }: Sample, now: number): string {
+export function measured(sample: Sample, now: number): string {
+  const { head, floats } = sample;
   switch (head.type) {
     case 'scan':
-      return `${head.count} rays · ${nearest(floats, head.range_min, head.range_max)}`;
+      return `${shownOf(floats.length, head.count)} rays · ${nearest(floats, head.range_min, head.range_max)}`;
     case 'cloud':
-      return `${head.count} points`;
+      return `${shownOf(pointsOf(sample).count, head.count)} points`;
     case 'picture':
       return pictureWords(head);
     case 'range':
@@ -39,6 +40,15 @@ export function measured({ head, floats }: Sample, now: number): string {
     default:
       return ''; // of another channel: no sensor's
   }
+}
+
+/** How many there are, and how many of them are shown. */
+function shownOf(shown: number, all: number): string {
+  return shown < all ? `${thousands(shown)} of ${thousands(all)}` : thousands(all);
+}
+
+function thousands(count: number): string {
+  return count.toLocaleString('en-GB').replaceAll(',', '\u202f');
 }
 
 function nearest(ranges: Float32Array, low: number | null, high: number | null): string {
