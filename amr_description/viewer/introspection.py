@@ -74,7 +74,11 @@ class FindingInfo:
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """All findings, to pages that watch ``findings``: errors first, the causes before the rest."""
+    """
+    All findings: errors first, the causes before the rest.
+
+    To pages that watch ``findings``, and, looked for less often, to those that watch ``alarms``.
+    """
 
     type: ClassVar[str] = 'findings'
     items: tuple[FindingInfo, ...]

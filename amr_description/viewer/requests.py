@@ -40,7 +40,7 @@ Rate: TypeAlias = Annotated[float, 'rate']
 """Hz; its own type, because more than 100, or less than 0, is refused."""
 Document: TypeAlias = Annotated[str, 'document']
 """A text of any lines."""
-Part: TypeAlias = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings']
+Part: TypeAlias = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings', 'alarms']
 """
 What the node collects only while a page shows it: a part of the states (wheels), or a message of
 the same name; ``rates`` are those of ``topics``.

@@ -17,7 +17,7 @@ import { navigationBar } from './navigation/bar';
 import { controlPanel } from './panels/control';
 import { framesPanel } from './panels/frames';
 import { graphPanel } from './panels/graph';
-import { diagnosticsToLookAt, healthPanel } from './panels/health';
+import { healthPanel, healthToLookAt } from './panels/health';
 import { jointsPanel } from './panels/joints';
 import { logPanel } from './panels/log';
 import { findingsToLookAt, modelPanel } from './panels/model';
@@ -39,6 +39,7 @@ import { watchTheme } from './theme';
 import { View } from './view';
 import { Watcher } from './watcher';
 
+const ALARMS = ['alarms'] as const;
 const PULSE = 100; // ms between two updates of the numbers
 
 const store = new Store();
@@ -98,9 +99,9 @@ const skip = h('a', { class: 'skip', href: '#drive' }, 'Skip to driving');
 document.body.prepend(skip, header.element);
 document.body.append(announce(app));
 
-store.watch(['graph', 'robot', 'model', 'diagnostics'], () => {
+store.watch(['graph', 'robot', 'model', 'diagnostics', 'findings'], () => {
   tabs.setBadge('model', findingsToLookAt(store));
-  tabs.setBadge('health', diagnosticsToLookAt(store));
+  tabs.setBadge('health', healthToLookAt(store));
 });
 store.watch(['graph'], () => recorder.keep((store.graph?.robots ?? []).map(({ id }) => id)));
 store.watch(['reset'], () => recorder.clear());
@@ -173,7 +174,8 @@ connection.onBinary = (buffer) => {
 /** Tell the node what can be seen: at once when it is nothing any more, as timers sleep then. */
 function watch(): void {
   watcher.show({
-    parts: [...tabs.watches, ...view.watches, ...plots.watches],
+    // Errors are counted on the tab of who does not look at them, too.
+    parts: [...(tabs.watches.includes('findings') ? [] : ALARMS), ...tabs.watches, ...view.watches, ...plots.watches],
     topics: [...tabs.topics, ...view.topics],
     messages: tabs.watches.includes('topics') ? channels.messages : [], // of the panel topics
     fields: channels.fields,

@@ -633,7 +633,11 @@ export interface FindingInfo {
   fix: string;
 }
 
-/** All findings, to pages that watch `findings`: errors first, the causes before the rest. */
+/**
+ * All findings: errors first, the causes before the rest.
+ *
+ * To pages that watch `findings`, and, looked for less often, to those that watch `alarms`.
+ */
 export interface Findings {
   type: 'findings';
   items: FindingInfo[];
@@ -859,7 +863,7 @@ export const MOST_FIELDS = 256;
  * What the node collects only while a page shows it: a part of the states (wheels), or a message of
  * the same name; `rates` are those of `topics`.
  */
-export type Part = 'wheels' | 'topics' | 'rates' | 'transforms' | 'log' | 'findings';
+export type Part = 'wheels' | 'topics' | 'rates' | 'transforms' | 'log' | 'findings' | 'alarms';
 
 /**
  * Drive a robot, with the keyboard, the joystick or a gamepad, at most 60 times per second.

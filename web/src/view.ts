@@ -17,6 +17,7 @@ import { recall, remember } from './remember';
 import type { Sample } from './samples';
 import { Places } from './scene/places';
 import { NoWebGL, Scene } from './scene/scene';
+import { unseenWords, type Unseen } from './scene/unseen';
 import type { Sensing } from './sensors/sensing';
 import type { Theme } from './theme';
 
@@ -31,6 +32,8 @@ const LAYERS = [
   { name: 'grid', label: 'Grid', on: true, title: 'Squares of 1 m' },
 ] as const;
 
+const LOOK = 500; // ms between two looks for the chosen robot
+const UNSEEN_LOOKS = 4; // a transform or a mesh may still be on its way
 const NOT_SPAWNED =
   'A robot is described, but the simulator has none: it was deleted, or is not spawned yet. The tab Simulation spawns one.';
 
@@ -61,6 +64,9 @@ export class View {
     ' or the arrow keys to drive',
   );
   private readonly paused = h('div', { class: 'view-paused', hidden: true }, 'Paused: robots stand');
+  private unseen: Unseen | null = null; // why there has been nothing of the chosen robot for a while
+  private looks = 0; // at which there was nothing of it, in a row
+  private lookedAt = 0; // ms
   private following = recall('follow') !== 'no';
 
   constructor(
@@ -112,6 +118,23 @@ export class View {
       this.places.update(state); // from the first state on: there odometry and truth agree
     } else {
       this.scene.applyState(state);
+      this.lookForRobot(this.scene, performance.now());
+    }
+  }
+
+  /** Say why nothing of the chosen robot is to be seen, once that has lasted. */
+  private lookForRobot(scene: Scene, now: number): void {
+    if (now - this.lookedAt < LOOK) {
+      return;
+    }
+    this.lookedAt = now;
+    const { robot } = this.app.store;
+    const unseen = robot?.present === true ? scene.unseen(robot.id) : null;
+    this.looks = unseen === null ? 0 : this.looks + 1;
+    const said = this.looks > UNSEEN_LOOKS ? unseen : null;
+    if (JSON.stringify(said) !== JSON.stringify(this.unseen)) {
+      this.unseen = said;
+      this.showWords();
     }
   }
 
@@ -262,6 +285,8 @@ export class View {
       this.say('No robot', graph.hint ?? NOT_SPAWNED);
     } else if (this.scene === null) {
       this.say('No 3-D view', this.whyBlind);
+    } else if (robot !== null && this.unseen !== null) {
+      this.say(...unseenWords(robotName(robot), this.unseen));
     }
   }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { diagnosticsToLookAt, healthPanel } from '../src/panels/health';
-import type { DiagnosticItem, Layout } from '../src/protocol';
+import { healthToLookAt, healthPanel } from '../src/panels/health';
+import type { DiagnosticItem, FindingInfo, Layout } from '../src/protocol';
 import { connectedApp, drawn, find, graphOf, robotInfo, texts, unknownState, type TestApp } from './page';
 
 function connected(): TestApp {
@@ -27,7 +27,18 @@ test('diagnostics are there, the worst first, and those that are not well are co
   assert.deepEqual(texts(panel, '.unit-name'), ['loop', 'wheel', 'battery']);
   assert.deepEqual(texts(panel, '.chip'), ['error', 'warn', 'ok']);
   assert.equal(find(panel, '.chip').dataset.tone, 'error');
-  assert.deepEqual(diagnosticsToLookAt(app.store), { count: 2, tone: 'error' });
+  assert.deepEqual(healthToLookAt(app.store), { count: 2, tone: 'error' });
+});
+
+test('errors that the doctor finds are counted, warnings are not', () => {
+  const app = connected();
+  const [what, why, fix, rule] = ['seen', 'bad', 'mend', 'rule'];
+  const of = (severity: 'error' | 'warning'): FindingInfo => ({ severity, rule, what, why, fix });
+  app.say({ type: 'findings', items: [of('warning')] });
+  assert.deepEqual(healthToLookAt(app.store), { count: 0, tone: 'warning' });
+  say(app, { level: 'warn', name: 'wheel', message: '' });
+  app.say({ type: 'findings', items: [of('error'), of('error'), of('warning')] });
+  assert.deepEqual(healthToLookAt(app.store), { count: 3, tone: 'error' });
 });
 
 test('a late loop is an alarm on a machine, and a note in a simulation', async () => {
@@ -39,15 +50,15 @@ test('a late loop is an alarm on a machine, and a note in a simulation', async (
   say(app, late, weak);
   await drawn();
   assert.deepEqual(texts(panel, '.chip'), ['error', 'warn']);
-  assert.deepEqual(diagnosticsToLookAt(app.store), { count: 2, tone: 'error' });
+  assert.deepEqual(healthToLookAt(app.store), { count: 2, tone: 'error' });
   const simulators = [{ id: '/sim', entities: ['amr'], world: '', worlds: [] }];
   app.say(graphOf([robotInfo({ entity: { simulator: '/sim', name: 'amr' } })], { simulators }));
   await drawn();
   assert.deepEqual(texts(panel, '.chip'), ['warn', 'note']);
   assert.match(texts(panel, '.unit .fine')[1]!, /^The control loop takes uneven time .*\(High execution/);
-  assert.deepEqual(diagnosticsToLookAt(app.store), { count: 1, tone: 'warning' });
+  assert.deepEqual(healthToLookAt(app.store), { count: 1, tone: 'warning' });
   say(app, { ...late, message: `${message}; Hardware is lost` });
-  assert.deepEqual(diagnosticsToLookAt(app.store), { count: 1, tone: 'error' });
+  assert.deepEqual(healthToLookAt(app.store), { count: 1, tone: 'error' });
 });
 
 test('a text stays the same node while diagnostics come, so that it can be selected and copied', async () => {

@@ -7,6 +7,7 @@ import type { Layout, Model } from '../src/protocol';
 import { Picture } from '../src/scene/picture';
 import { Places } from '../src/scene/places';
 import { PALETTES } from '../src/scene/theme';
+import { unseenWords } from '../src/scene/unseen';
 import type { State } from '../src/state';
 
 const URDF = `<robot name="amr"><link name="base"/><link name="wheel"/>
@@ -70,4 +71,38 @@ test('every frame is where the view draws it, drift of the odometry and all', ()
   assert.deepEqual(drawn.map(round), [
     ['world', 0, 0, 0], ['odom', 4, 5, 0], ['base', 5.9, 5, 0], ['wheel', 6.4, 5, 0],
   ]);
+});
+
+test('a robot that no transform leads to is unseen until one does', () => {
+  const lost = state(0, NaN, []);
+  const { picture } = both(lost);
+  assert.deepEqual(picture.unseen('/'), { reason: 'place', base: 'base', frame: 'odom' });
+  const [title, text] = unseenWords('amr', picture.unseen('/')!);
+  assert.equal(title, 'amr cannot be placed');
+  assert.match(text, /^No transform that is a number leads from "odom" to "base"\. .*Health/);
+  picture.setState(state(1, 1, []));
+  picture.place();
+  assert.equal(picture.unseen('/'), null);
+  assert.equal(picture.unseen('/another'), null, 'nothing is known of it');
+});
+
+test('a robot none of whose meshes is there says of which package they are', async () => {
+  const app = connectedApp();
+  app.say(LAYOUT);
+  const mesh = (name: string): string =>
+    `<visual><geometry><mesh filename="package://ur_description/${name}"/></geometry></visual>`;
+  const urdf = `<robot name="ur"><link name="base">${mesh('a.stl')}${mesh('b.stl')}</link></robot>`;
+  const picture = new Picture(true);
+  const problems: string[] = [];
+  picture.setModel({ ...MODEL, urdf }, { changed: () => {}, problem: (text) => problems.push(text) }, PALETTES.light);
+  picture.setLayout(LAYOUT);
+  picture.setState(state(0, 1, []));
+  picture.place();
+  await new Promise((resolve) => setTimeout(resolve, 0)); // meshes are looked for apart
+  assert.equal(problems.length, 2);
+  const unseen = picture.unseen('/');
+  assert.deepEqual(unseen, { reason: 'shapes', problems });
+  const [title, text] = unseenWords('ur', unseen);
+  assert.equal(title, 'Nothing of ur is drawn');
+  assert.match(text, /^2 files of the package ur_description cannot be drawn: the mesh 'package:/);
 });

@@ -11,6 +11,7 @@ which ``ros2 doctor`` is typed.
 
 from collections.abc import Callable
 from functools import partial
+import math
 import time
 
 from rclpy.node import Node
@@ -22,9 +23,13 @@ from amr_description.doctor.table import examine
 from amr_description.viewer.introspection import FindingInfo, Findings
 
 _PERIOD = 25.0
-"""s from one examination to the next: each takes 0.2 s of a processor."""
+"""s from one examination to the next while pages show it: each takes 0.2 s of a processor."""
+_SLOW_PERIOD = 60.0
+"""… while pages only want to know of errors."""
 _DISCOVERY = 1.0
 """s from a page's first look to the examination: until then what there is has been discovered."""
+_SLOW_DISCOVERY = 10.0
+"""… while pages only want to know of errors: robots and pages have come up by then."""
 _NODE = '_viewer_doctor'
 _PROBES = {name: probe for name, probe in PROBES.items() if name != 'navigation'} | {
     'sensors': partial(SensorsProbe, only_subscribed=True)
@@ -38,31 +43,41 @@ class Health:
         """``node``: of the viewer; ``tell`` gets the findings of each examination."""
         self._node = node
         self._tell = tell
-        self._is_watched = False
-        self._began = -_PERIOD
+        self._due = math.inf
+        """When the next examination begins, s of a monotonic clock."""
+        self._is_shown = False
+        self._began = 0.0
         self._doctor: Node | None = None
         self._examination: RosExamination | None = None
         self.latest: Findings | None = None
         """Those of the last examination, while pages watch them; replaced as a whole."""
 
-    def watch(self, *, is_watched: bool) -> None:
-        """Begin to examine, or cease."""
-        if is_watched == self._is_watched:
-            return
-        self._is_watched = is_watched
-        self._began = time.monotonic() + _DISCOVERY - _PERIOD
-        if not is_watched:
+    def watch(self, *, is_shown: bool, is_watched: bool) -> None:
+        """Begin to examine, or cease: at once for who is shown all, else after a while."""
+        self._is_shown = is_shown
+        if not (is_shown or is_watched):
             self._end()
-            self.latest = None
+            self._due, self.latest = math.inf, None
+            return
+        if self._examination is not None:
+            return
+        now = time.monotonic()
+        if self.latest is None:
+            due = now + (_DISCOVERY if is_shown else _SLOW_DISCOVERY)
+        else:
+            due = self._began + self._period
+        self._due = min(self._due, due)
+
+    @property
+    def _period(self) -> float:
+        return _PERIOD if self._is_shown else _SLOW_PERIOD
 
     def poll(self) -> None:
         """Go on with the examination; a few times a second."""
-        if not self._is_watched:
-            return
         now = time.monotonic()
         if self._examination is None:
-            if now - self._began >= _PERIOD:
-                self._began = now
+            if now >= self._due:
+                self._began, self._due = now, now + self._period
                 self._begin()
             return
         if self._examination.is_done or now - self._began >= WINDOW:

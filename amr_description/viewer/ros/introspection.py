@@ -42,7 +42,7 @@ class Introspection:
         self._namespaces: tuple[str, ...] = ()
         self._log: RosoutLines | None = None
         self._polls = 0
-        self._health = Health(node, lambda found: tell('findings', found))
+        self._health = Health(node, self._tell_findings)
 
     def open(self) -> None:
         """The first page is there."""
@@ -60,14 +60,14 @@ class Introspection:
         log = self._log
         if part == 'log' and log is not None:
             return Log(log.kept)
-        if part == 'findings':
+        if part in {'findings', 'alarms'}:
             return self._health.latest
         return self._topics if part == 'topics' else None
 
     def watch(self, parts: AbstractSet[Part], namespaces: Sequence[str]) -> None:
         """Collect these parts; ``namespaces``: of robots with a TF of their own."""
         begun = parts - self._parts
-        self._health.watch(is_watched='findings' in parts)
+        self._health.watch(is_shown='findings' in parts, is_watched='alarms' in parts)
         self._parts = parts
         if 'rates' not in parts:
             self._rates.measure(())
@@ -94,6 +94,10 @@ class Introspection:
             self._tell('transforms', self._transforms.poll())
         if 'topics' in self._parts and self._polls % _EVERY == 0:
             self._list_topics()
+
+    def _tell_findings(self, found: Findings) -> None:
+        self._tell('findings', found)
+        self._tell('alarms', found)
 
     def _list_topics(self) -> None:
         if 'rates' in self._parts:

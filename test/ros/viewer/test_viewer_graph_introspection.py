@@ -23,6 +23,7 @@ from amr_description.errors import AmrError
 from amr_description.launch_log import LAUNCH_LOG
 from amr_description.ros.qos import TF_STATIC
 from amr_description.viewer.requests import Publish, SetParameter
+from amr_description.viewer.ros import health
 from amr_description.viewer.ros.introspection import Introspection
 from amr_description.viewer.ros.parameters import ParameterClients
 from amr_description.viewer.ros.publications import fields_of_type, Publications
@@ -406,7 +407,9 @@ def test_a_form_has_the_fields_of_the_message_with_their_defaults():
     assert not any(math.isnan(each.value) for each in orientation.fields)
 
 
-def test_findings_of_the_doctor_come_while_a_page_shows_them(ros, shown):
+@pytest.mark.parametrize('part', ['findings', 'alarms'])
+def test_findings_of_the_doctor_come_while_a_page_wants_them(ros, shown, part, monkeypatch):
+    monkeypatch.setattr(health, '_SLOW_DISCOVERY', 1.0)
     viewer, other, _ = ros
     introspection, told = shown
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -415,11 +418,11 @@ def test_findings_of_the_doctor_come_while_a_page_shows_them(ros, shown):
     for each, parent in zip(both, ('base_link', 'base_footprint'), strict=True):
         each.header.frame_id, each.transform.rotation.w = parent, 1.0
     publisher.publish(TFMessage(transforms=both))
-    introspection.watch({'findings'}, ())
+    introspection.watch({part}, ())
     found = until(introspection, told, lambda message: message.items)
     assert [each.rule for each in found] == ['tf_two_parents']
     assert "'laser' has 2 parents" in found[0].what
-    assert introspection.latest('findings').items == found
+    assert introspection.latest(part).items == found
     introspection.watch(set(), ())
     assert introspection.latest('findings') is None
     other.destroy_publisher(publisher)

@@ -25,11 +25,15 @@ export function healthPanel(app: App): Panel {
   return panelOf(app, { id: 'health', title: 'Health', watches: ['wheels', 'findings'] }, HealthPanel);
 }
 
-/** How many diagnostics of the shown robot are not well, and what they are at the worst. */
-export function diagnosticsToLookAt(store: Store): { count: number; tone: 'warning' | 'error' } {
+/**
+ * How many diagnostics of the shown robot are not well, and errors the doctor finds in the graph;
+ * and what they are at the worst.
+ */
+export function healthToLookAt(store: Store): { count: number; tone: 'warning' | 'error' } {
+  const errors = (store.findings?.items ?? []).filter(({ severity }) => severity === 'error').length;
   const levels = itemsOf(store).map(({ level }) => level);
   const count = levels.filter((level) => level !== 'ok' && level !== 'note').length;
-  return { count, tone: levels.includes('error') ? 'error' : 'warning' };
+  return { count: count + errors, tone: errors > 0 || levels.includes('error') ? 'error' : 'warning' };
 }
 
 function HealthPanel({ app, state }: PanelProps) {

@@ -23,6 +23,7 @@ import { SensorLayer, type Locate } from './sensors';
 import { Surroundings } from './surroundings';
 import { PALETTES, type Palette } from './theme';
 import { FrameTree, readPose } from './tree';
+import type { Unseen } from './unseen';
 import { WorldView } from './world';
 
 /** What is shown beside robots and world. */
@@ -222,6 +223,19 @@ export class Picture {
   poseOf(robot: string | null): Matrix4 | null {
     const body = robot === null ? null : this.robots.get(robot)?.body;
     return body ? this.placement.poseOfBody(body) : null;
+  }
+
+  /** Why nothing of a robot is to be seen; null: something is, or nothing is known of it yet. */
+  unseen(robot: string): Unseen | null {
+    const entry = this.robots.get(robot);
+    if (entry === undefined || entry.body === null || this.isWaiting) {
+      return null;
+    }
+    if (this.placement.poseOfBody(entry.body) === null) {
+      return { reason: 'place', base: entry.body.base, frame: this.fixedFrame };
+    }
+    const problems = entry.view.whyBare;
+    return problems === null ? null : { reason: 'shapes', problems };
   }
 
   /** Let one look through what hides a robot from the eye; null: through nothing. */

@@ -174,6 +174,11 @@ export class RobotView {
     return meshesOf(this.object, true);
   }
 
+  /** Why none of its visuals is there; null: one is, or nothing has failed. */
+  get whyBare(): readonly string[] | null {
+    return this.problems.size > 0 && this.visuals().length === 0 ? [...this.problems] : null;
+  }
+
   showCollisions(shown: boolean): void {
     this.areCollisionsShown = shown;
     this.revealColliders();

@@ -25,6 +25,7 @@ import type { RobotView } from './robot';
 import type { SceneRobot } from './robot_marks';
 import type { SensorNumbers } from './sensors';
 import { PALETTES, type Theme } from './theme';
+import type { Unseen } from './unseen';
 import { massOf } from './urdf';
 import { isSoftwareDrawn } from './webgl';
 
@@ -82,6 +83,11 @@ export class Scene {
       this.onProblem(error instanceof Error ? error.message : String(error));
     }
     this.invalidate();
+  }
+
+  /** Why nothing of a robot is to be seen; null: something is, or nothing is known of it yet. */
+  unseen(robot: string): Unseen | null {
+    return this.picture.unseen(robot);
   }
 
   removeRobot(robot: string): void {
