@@ -47,6 +47,8 @@ class BagWriting:
     topics: int
     lost: int  #: messages for which there was no room
     error: str  #: why it has ended by itself; may be empty
+    folder: str  #: where bags are made
+    free: int  #: bytes that are free there
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +95,7 @@ class StartRecording:
     types: ClassVar[tuple[str, ...]] = ('start_recording',)
     id: int
     topics: tuple[str, ...]  #: none: all
+    without_types: tuple[str, ...] = ()  #: types of messages that are left out
 
 
 @dataclass(frozen=True, slots=True)

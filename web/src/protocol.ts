@@ -779,6 +779,10 @@ export interface BagWriting {
   lost: number;
   /** why it has ended by itself; may be empty */
   error: string;
+  /** where bags are made */
+  folder: string;
+  /** bytes that are free there */
+  free: number;
 }
 
 /** Show another time of the bag. */
@@ -819,6 +823,8 @@ export interface StartRecording {
   id: number;
   /** none: all */
   topics: string[];
+  /** types of messages that are left out */
+  without_types: string[];
 }
 
 /** End what the node records. */

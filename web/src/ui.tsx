@@ -7,7 +7,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { ICONS, type IconName } from './icons';
 
 /** A drawing that says nothing to a screen reader: the button around it has the words. */
-function Icon({ name }: { name: IconName }) {
+export function Icon({ name }: { name: IconName }) {
   return (
     <svg viewBox="0 0 16 16" class="icon" aria-hidden="true">
       <path d={ICONS[name]} />

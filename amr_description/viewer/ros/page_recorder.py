@@ -11,6 +11,7 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+import shutil
 import threading
 import time
 
@@ -30,7 +31,7 @@ from amr_description.viewer.ros.on_thread import on_ros_thread
 
 _PERIOD = 0.25
 """s between two looks for new topics, and two messages about what is recorded."""
-_NOTHING = BagWriting(False, '', 0.0, 0, 0, 0, 0, '')
+_NOTHING = BagWriting(False, '', 0.0, 0, 0, 0, 0, '', '', 0)
 
 
 class PageRecorder:
@@ -57,7 +58,7 @@ class PageRecorder:
         self._ending: _Ending | None = None
         """What is still being written."""
         self._begin = 0.0
-        self.status = _NOTHING
+        self.status = replace(_NOTHING, folder=str(folder), free=_free(folder))
         """The last that was told; replaced as a whole."""
 
     async def handle(self, request: BagRequest) -> str:
@@ -66,8 +67,8 @@ class PageRecorder:
         def attempt() -> str | AmrError | _Ending:
             try:
                 match request:
-                    case StartRecording(topics=topics):
-                        return self._start(topics)
+                    case StartRecording():
+                        return self._start(request)
                     case StopRecording():
                         return self._end_receiving()
                     case _:
@@ -117,17 +118,21 @@ class PageRecorder:
             return ViewerError(f'{status.path}: {status.error}')
         return f'{status.path}: {status.messages} messages in {status.seconds:.0f} s'
 
-    def _start(self, topics: tuple[str, ...]) -> str:
+    def _start(self, request: StartRecording) -> str:
         if self._recorder is not None:
             raise ViewerError(f'{self.status.path} is recorded already; stop that first')
         if self._ending is not None:
             raise ViewerError(f'{self.status.path} is still being written; wait for that')
-        wanted = TopicFilter(all_topics=not topics, topics=topics)
+        wanted = TopicFilter(
+            all_topics=not request.topics,
+            topics=request.topics,
+            exclude_topic_types=request.without_types,
+        )
         path = _new_folder(self._folder)
         self._writer = BagWriter(path)
         self._recorder = Recorder(self._node, self._writer, RecorderOptions(wanted))
         self._begin = time.monotonic()
-        self.status = replace(_NOTHING, active=True, path=str(path))
+        self.status = replace(self.status, active=True, path=str(path))
         self._recorder.start()
         self._look()
         clock = Clock(clock_type=ClockType.STEADY_TIME)  # simulated time may stand
@@ -155,6 +160,8 @@ class PageRecorder:
             len(recorder.topics),
             sum(recorder.lost.values()),
             str(recorder.error or ''),
+            str(self._folder),
+            _free(self._folder),
         )
 
     def _publish(self, status: BagWriting) -> None:
@@ -179,6 +186,15 @@ class _Ending:
                 self._writer.close()
             except AmrError as error:
                 self.error = str(error)
+
+
+def _free(folder: Path) -> int:
+    """Return the bytes that are free where a folder is, or will be."""
+    there = next(each for each in (folder, *folder.absolute().parents) if each.exists())
+    try:
+        return shutil.disk_usage(there).free
+    except OSError:  # it is on a file system that does not tell
+        return 0
 
 
 def _new_folder(parent: Path) -> Path:

@@ -10,6 +10,7 @@ import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from sensor_msgs.msg import Image
 from std_msgs.msg import String
 from support.ros_processes import PATIENCE
 from support.waiting import until
@@ -80,3 +81,23 @@ def test_while_a_bag_is_completed_the_ros_thread_is_free(node, tmp_path, monkeyp
     with BagReader(folder) as reader:
         assert not reader.is_rebuilt
         assert len([*reader.messages()]) == 1
+
+
+def test_types_are_left_out_and_the_room_is_told(node, tmp_path):
+    folder = tmp_path / 'not' / 'there yet'
+    publishers = [node.create_publisher(kind, topic, 10) for kind, topic in
+                  ((String, 'chatter'), (Image, 'image'))]  # fmt: skip
+    told = []
+    with spinning(node) as executor:
+        recorder = PageRecorder(node, executor, folder, told.append)
+        assert (recorder.status.folder, recorder.status.free > 0) == (str(folder), True)
+
+        async def record():
+            await recorder.handle(StartRecording(1, (), ('sensor_msgs/msg/Image',)))
+            await asyncio.to_thread(until, publishers[0].get_subscription_count)
+            return await recorder.handle(StopRecording(2))
+
+        asyncio.run(record())
+        assert publishers[1].get_subscription_count() == 0
+    assert told[0].active
+    assert told[-1].free > 0
