@@ -69,7 +69,7 @@ class FindingInfo:
     rule: str  #: its section in docs/doctor.md
     what: str  #: what was seen
     why: str  #: why it matters
-    fix: str  #: what mends it: a command, or what to do
+    fix: str  #: what mends it; commands are between back-quotes
 
 
 @dataclass(frozen=True, slots=True)

@@ -301,7 +301,7 @@ DOCTOR = Findings(
             "the controller 'imu' (imu_sensor_broadcaster/IMUSensorBroadcaster) of "
             '/controller_manager is inactive',
             'it is silent: it neither takes commands nor publishes',
-            'ros2 control set_controller_state imu active',
+            '`ros2 control set_controller_state imu active`',
         ),
     )
 )

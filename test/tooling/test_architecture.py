@@ -39,7 +39,7 @@ FEW_LINES = 80
 # clouds in part or whole, errors while nobody looks, what is recorded of it).
 BUDGETS = {
     'modules': 832,
-    'code lines': 95_165,
+    'code lines': 95_173,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,

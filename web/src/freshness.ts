@@ -55,10 +55,9 @@ export class Freshness {
   /** The age of everything if that is too old: of what the node says, or of simulated time. */
   stalenessOfAll(now: number): number | null {
     const silence = this.silence(now) ?? 0;
-    if (silence > STALE - PERIOD) {
-      return silence + PERIOD;
-    }
-    return this.tooOld(this.clock(now), 'clock');
+    const ages = [silence > STALE - PERIOD ? silence + PERIOD : null, this.tooOld(this.clock(now), 'clock')];
+    const known = ages.filter((age) => age !== null);
+    return known.length === 0 ? null : Math.max(...known);
   }
 
   private grown(age: number | null, now: number): number | null {

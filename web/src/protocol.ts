@@ -629,7 +629,7 @@ export interface FindingInfo {
   what: string;
   /** why it matters */
   why: string;
-  /** what mends it: a command, or what to do */
+  /** what mends it; commands are between back-quotes */
   fix: string;
 }
 

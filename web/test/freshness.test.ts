@@ -44,6 +44,13 @@ test('a clock that stands is stale while the node goes on to tell of it', () => 
   assert.equal(freshness.stalenessOfAll(7.6), null);
 });
 
+test('of two silences the longer one is said', () => {
+  const freshness = new Freshness();
+  tell(freshness, 30, (index) => ages(0.25 * index, 0.25 * index));
+  const told = freshness.stalenessOfAll(7.25 + 2) ?? 0; // the node has been silent for 2 s of them
+  assert.ok(Math.abs(told - 9.25) < 0.5, String(told));
+});
+
 test('a robot without a simulator has no clock to be stale', () => {
   const freshness = new Freshness();
   tell(freshness, 4, () => ages(null, 5));

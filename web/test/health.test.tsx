@@ -119,7 +119,7 @@ test('findings have what was seen, why it matters, and a fix to copy; none are h
   const panel = healthPanel(app);
   Object.defineProperty(globalThis, 'navigator', { value: {}, configurable: true }); // no clipboard
   const [rule, what, why] = ['two_clocks', '/clock has two publishers', 'time jumps'];
-  app.say({ type: 'findings', items: [{ severity: 'error', rule, what, why, fix: 'ros2 node list' }] });
+  app.say({ type: 'findings', items: [{ severity: 'error', rule, what, why, fix: '`ros2 node list`' }] });
   await drawn();
   assert.deepEqual(texts(panel, '.doctor .unit-name'), [what]);
   assert.deepEqual(texts(panel, '.doctor .fine'), [why]);

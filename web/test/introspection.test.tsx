@@ -45,7 +45,7 @@ function click(element: Element | null | undefined): void {
 test('topics are found by name, type and node, and their names are text', async () => {
   const panel = topicsPanel(withTopics(), NO_PLOTS);
   assert.deepEqual(texts(panel, '.unit-name'), ['/odom', '/rosout', '/<b>']);
-  assert.equal(texts(panel, '.topic .fine')[0], '50 Hz · 1 → 2');
+  assert.equal(texts(panel, '.topic .fine')[0], '50 Hz · 1 pub, 2 sub');
   type(panel.element.querySelector('input'), 'NAV b');
   await drawn();
   assert.deepEqual(texts(panel, '.unit-name'), ['/odom']);

@@ -6,6 +6,7 @@ import { linkFacts, principalAxes } from '../src/links';
 import { framesPanel } from '../src/panels/frames';
 import type { RobotInfo } from '../src/protocol';
 import { Places } from '../src/scene/places';
+import { readUrdf } from '../src/scene/urdf';
 import { connectedApp, drawn, texts } from './page';
 
 const URDF = `<robot name="arm">
@@ -97,4 +98,21 @@ test('the panel shows the chosen link, by its frame with the namespace', async (
   app.store.select({ robot: '/arm1', frame: 'odom' });
   await drawn();
   assert.equal(texts(panel, 'h3').some((title) => title.startsWith('Link')), false);
+});
+
+test('a visual has a colour that is seen on a white map, unless it has its own', () => {
+  const visual = (inner: string): string => `<link name="l"><visual>${inner}</visual></link>`;
+  const mesh = (file: string): string => `<geometry><mesh filename="${file}"/></geometry>`;
+  const xml = readUrdf(
+    `<robot name="r">${[
+      visual('<geometry><box size="1 1 1"/></geometry>'), visual(mesh('a.STL')), visual(mesh('a.dae')),
+      visual(`${mesh('b.stl')}<material name="red"/>`),
+    ].join('')}</robot>`,
+    {},
+    () => {},
+  );
+  const names = [...xml.querySelectorAll('visual')].map(
+    (each) => each.querySelector('material')?.getAttribute('name') ?? null,
+  );
+  assert.deepEqual(names, ['plain', 'plain', null, 'red']);
 });

@@ -12,6 +12,7 @@ which ``ros2 doctor`` is typed.
 from collections.abc import Callable
 from functools import partial
 import math
+import re
 import time
 
 from rclpy.node import Node
@@ -31,6 +32,10 @@ _DISCOVERY = 1.0
 _SLOW_DISCOVERY = 10.0
 """… while pages only want to know of errors: robots and pages have come up by then."""
 _NODE = '_viewer_doctor'
+_COMMAND = re.compile(
+    r'(?:(?<=^)|(?<=, or )|(?<=; )|(?<=: ))(?:ros2|export|unset|source|kill|sudo) .*?'
+    r'(?=, or |; | \(|$)'
+)
 _PROBES = {name: probe for name, probe in PROBES.items() if name != 'navigation'} | {
     'sensors': partial(SensorsProbe, only_subscribed=True)
 }
@@ -110,5 +115,11 @@ class Health:
             self._doctor = None
 
 
+def with_quotes(fix: str) -> str:
+    """Return what mends a fault with its commands between back-quotes, for pages to copy them."""
+    return _COMMAND.sub(r'`\g<0>`', fix)
+
+
 def _info(found: Finding) -> FindingInfo:
-    return FindingInfo(found.severity.value, found.rule, found.what, found.why, found.fix)
+    fix = with_quotes(found.fix)
+    return FindingInfo(found.severity.value, found.rule, found.what, found.why, fix)

@@ -428,3 +428,14 @@ def test_findings_of_the_doctor_come_while_a_page_wants_them(ros, shown, part, m
     other.destroy_publisher(publisher)
     assert viewer.executor is not None
     assert not [each for each in viewer.executor.get_nodes() if 'doctor' in each.get_name()]
+
+
+def test_only_commands_are_offered_to_be_copied():
+    for fix in (
+        '`kill -CONT 12`',
+        '`ros2 param set /a b 0.4`, or simulate less at once: fewer robots',
+        'mend /synth: name, position',
+        '`ros2 param set /a c true`; `ros2 param set /b c true`',
+        'let a mux decide: `ros2 run twist_mux twist_mux` (see docs)',
+    ):
+        assert health.with_quotes(fix.replace('`', '')) == fix

@@ -13,7 +13,7 @@ FOUND = FindingInfo(
     "the frame 'base_link' has 2 parents: 'odom' (published by /diff_drive_controller) and "
     "'base_footprint' (published by /robot_state_publisher)",
     "a frame can have one parent: 'base_link' jumps between them with each message",
-    'ros2 param set /diff_drive_controller base_frame_id base_footprint',
+    '`ros2 param set /diff_drive_controller base_frame_id base_footprint`',
 )
 DRIVES = "document.querySelector('.drive-head .chip').textContent"
 SHOWN = "document.querySelector('.doctor')"
@@ -27,7 +27,7 @@ def test_findings_are_shown_with_a_fix_to_copy_until_they_are_gone(browser):
         page.evaluate("document.querySelector('#tab-health').click()")
         drive.new = (Findings((FOUND,)),)
         page.wait_until(f'{SHOWN} !== null')
-        assert page.evaluate(f"{SHOWN}.querySelector('code').textContent") == FOUND.fix
+        assert page.evaluate(f"{SHOWN}.querySelector('code').textContent") == FOUND.fix.strip('`')
         assert page.evaluate(f"{SHOWN}.querySelector('button').title") == 'Copy the command'
         assert page.evaluate(f'{SHOWN}.scrollWidth <= {SHOWN}.clientWidth')
         drive.new = (Findings(()),)

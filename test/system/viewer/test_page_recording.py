@@ -92,6 +92,11 @@ def test_a_bag_is_scrubbed_forwards_and_backwards(browser, drive):
         page.wait_until('amr.now.samples > 500')  # all of it is plotted at once
         assert page.evaluate('amr.now.recording') == 'drive'
         assert is_at(page, 0.0)
+        page.evaluate("document.querySelector('canvas.scene').focus()")  # as after a click into it
+        press(page, 'ArrowRight')
+        assert is_at(page, 1.0)
+        press(page, 'Home')
+        assert is_at(page, 0.0)
         press(page, 'End')
         assert is_at(page, LENGTH)
         press(page, 'ArrowLeft')

@@ -84,10 +84,10 @@ function FindingRow({ severity, rule, what, why, fix }: FindingInfo) {
   );
 }
 
-/** A command with a button that copies it; words as they are. */
+/** What mends it, each command in it with a button that copies it. */
 function Fix({ text }: { text: string }) {
   const place = useRef<HTMLSpanElement>(null);
-  useLayoutEffect(() => place.current?.replaceChildren(...commands(`\`${text}\``)), [text]);
+  useLayoutEffect(() => place.current?.replaceChildren(...commands(text)), [text]);
   return <span class="fix" ref={place} />;
 }
 

@@ -103,13 +103,11 @@ function Row({ app, node, info, all }: RowProps) {
   const bounds = boundsOf(info);
   return (
     <li class="unit parameter">
-      <span class="unit-name" title={info.name}>
-        {info.name}
-      </span>
+      <span class="unit-name">{info.name}</span>
       <span class="chosen-value">
         <Editor key={JSON.stringify(info.value)} info={info} busy={busy.value} onSet={(value) => void set(value)} />
       </span>
-      <span class="fine">
+      <span class="fine about">
         {[info.kind.replace('_', ' '), bounds, info.read_only ? 'read only' : '', info.constraints, info.description]
           .filter((each) => each !== '')
           .join(' · ')}

@@ -83,6 +83,7 @@ function RecordThese({ app, topics }: Pick<TopicProps, 'app'> & { topics: readon
     <span class="recorder">
       <Button
         icon="record"
+        text="Record these"
         kind="quiet"
         title={`Record these ${topics.length} topics into a bag`}
         disabled={writing.active}
@@ -113,7 +114,7 @@ function Topic({ app, topic, open, onOpen, plots }: TopicProps) {
         <span class="unit-name">{name}</span>
         <span class="fine">
           {rate !== null && `${fixed(rate, rate < 10 ? 1 : 0)} Hz · `}
-          <span title="publishers, subscriptions">{`${publishers.length} → ${subscriptions.length}`}</span>
+          {`${publishers.length} pub, ${subscriptions.length} sub`}
         </span>
         <span class="fine" data-tone={kinds.length > 1 ? 'warning' : undefined}>
           {kinds.join(' or ')}

@@ -44,7 +44,7 @@ const ABOUT: Record<Kind, Omit<ChartLines, 'lines'>> = {
   linear: { title: 'Linear velocity', unit: 'm/s', always: null, leastSpan: 0.2 },
   angular: { title: 'Angular velocity', unit: 'rad/s', always: null, leastSpan: 0.2 },
   wheels: { title: 'Wheel speeds', unit: 'rad/s', always: null, leastSpan: 0.2 },
-  factor: { title: 'Real-time factor', unit: '×', always: [0, 1], leastSpan: 0.2 },
+  factor: { title: 'Real-time factor', unit: 'x real time', always: [0, 1], leastSpan: 0.2 },
 };
 
 /** What a chart shows of a robot with these wheels. */

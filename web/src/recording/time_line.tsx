@@ -30,18 +30,22 @@ export function timeLine(app: App): HTMLElement {
     }
     if (scrubber.press(key, shiftKey)) {
       event.preventDefault(); // arrows would scroll a panel, or move the slider by its own step
+      event.stopPropagation(); // Home would turn the camera, too
     }
-  });
+  }, { capture: true });
   return element;
 }
 
 /** Whether a key is for what has the focus: text, tabs, a chart, the view, or a button that Space presses. */
-function isOthers({ target, code, key }: KeyboardEvent): boolean {
+function isOthers({ target, code, key, shiftKey }: KeyboardEvent): boolean {
   if (!(target instanceof HTMLElement) || target.closest('.time-line input') !== null) {
     return false;
   }
   const pressable = 'button:focus-visible, a:focus-visible, summary:focus-visible';
   const isPressed = key === ' ' && target.matches(pressable);
+  if (target.matches('canvas.scene')) {
+    return shiftKey || '+=-'.includes(key); // with these the camera turns and zooms
+  }
   const ofItsOwn = target.matches('canvas, [role=tab], [role=tabpanel]') && key !== ' ';
   return isPressed || ofItsOwn || takesKey(target, code) || target.matches('.chart-plot');
 }

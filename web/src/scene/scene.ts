@@ -6,7 +6,7 @@
  * Nothing is drawn but what changed: messages and states are taken over at once, and drawn once in
  * the next frame, however many came. All methods are cheap; none waits.
  */
-import { Matrix4, Plane, Vector3 } from 'three';
+import { Box3, Matrix4, Plane, Vector3 } from 'three';
 import type { Place, Point } from '../navigation/gesture';
 import type { Tool } from '../navigation/tool';
 import type { GoalStatus, Layout, Model, SensorInfo, Vector, World } from '../protocol';
@@ -208,7 +208,8 @@ export class Scene {
     if (pose !== null && view !== undefined) {
       this.rig.startFollowing(pose, view.bounds());
     } else {
-      this.rig.frame(this.picture.robots.bounds());
+      const bounds = this.picture.robots.bounds();
+      this.rig.frame(bounds.isEmpty() ? new Box3().setFromObject(this.picture.world.object) : bounds);
     }
     this.painter.dirty();
   }

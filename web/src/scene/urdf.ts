@@ -3,6 +3,8 @@
 /** A URDF, made ready for urdf-loader: what RViz reads in it, though the loader does not. */
 import type { Files } from './meshes';
 
+const PLAIN = '0.52 0.6 0.7 1';
+
 /** A URDF that cannot be drawn; the message is the reason. */
 export class BadModel extends Error {
   override readonly name = 'BadModel';
@@ -12,7 +14,8 @@ export class BadModel extends Error {
  * The XML of a URDF, with
  *
  * - materials that are defined within one visual and named in others written out there too,
- * - textures that the node did not find left out; their names are given to `onMissing`.
+ * - textures that the node did not find left out; their names are given to `onMissing`,
+ * - a colour for visuals that have none of their own: white would not be seen on a white map.
  */
 export function readUrdf(urdf: string, files: Files, onMissing: (name: string) => void): Document {
   const xml = new DOMParser().parseFromString(urdf, 'text/xml');
@@ -28,7 +31,23 @@ export function readUrdf(urdf: string, files: Files, onMissing: (name: string) =
     }
   }
   writeMaterialsOut(xml);
+  colourPlainVisuals(xml);
   return xml;
+}
+
+function colourPlainVisuals(xml: Document): void {
+  for (const visual of xml.querySelectorAll('visual')) {
+    const file = visual.querySelector('geometry > mesh')?.getAttribute('filename') ?? '.stl';
+    const hasColour = visual.querySelector(':scope > material') !== null || !/\.stl$/i.test(file);
+    if (!hasColour) {
+      const colour = xml.createElement('color');
+      colour.setAttribute('rgba', PLAIN);
+      const material = xml.createElement('material');
+      material.setAttribute('name', 'plain');
+      material.append(colour);
+      visual.append(material);
+    }
+  }
 }
 
 function writeMaterialsOut(xml: Document): void {
