@@ -6,9 +6,10 @@ The command line of each node of a stack, with the parameter files that it names
 Everything that can be wrong with a node is found here, before the first process starts.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import contextlib
 from dataclasses import dataclass
+from functools import partial
 import os
 from pathlib import Path
 import re
@@ -16,7 +17,13 @@ import shlex
 import shutil
 
 from amr_description.ament_index import executable_of, is_own, OWN_PACKAGE, path_of
-from amr_description.bringup.description import Node, ParameterText, ParameterValue, Stack
+from amr_description.bringup.description import (
+    LateTable,
+    Node,
+    ParameterText,
+    ParameterValue,
+    Stack,
+)
 from amr_description.bringup.environment import interpreter_of, is_of_this_python
 from amr_description.bringup.placement import Placement, ResolvedNode
 from amr_description.errors import BringupError, UsageError
@@ -71,6 +78,15 @@ def _scalar(name: str, value: object) -> bool | int | float | str:
 
 
 @dataclass(frozen=True)
+class LateText:
+    """The text of a parameter file that is known only when the node starts."""
+
+    make: Callable[[], str]
+    text: str
+    """What it is made of."""
+
+
+@dataclass(frozen=True)
 class ProcessSpec:
     """The process that the orchestrator starts for one node."""
 
@@ -78,7 +94,7 @@ class ProcessSpec:
     name: str
     """``<executable>-<number in the stack, from 1>``, as on the screen."""
     executable: Path
-    parameter_files: Sequence[tuple[Path, str | None]]
+    parameter_files: Sequence[tuple[Path, 'str | LateText | None']]
     """(path, text to write there before the start; None: it is a file of the user)."""
     launch_prefix: str = ''
     """Words before the command line, unless the node has a prefix of its own."""
@@ -145,10 +161,16 @@ class ProcessSpec:
         return shlex.join(self.command)
 
     def write_parameter_files(self) -> None:
-        """Write the tables of parameters to the files that the command line names."""
+        """
+        Write the tables of parameters to the files that the command line names.
+
+        Raises:
+            OSError: a file cannot be written.
+            BringupError: a table that is known only now cannot be made.
+        """
         for path, text in self.parameter_files:
             if text is not None:
-                path.write_text(text, encoding='utf-8')
+                path.write_text(text if isinstance(text, str) else text.make(), encoding='utf-8')
 
 
 @dataclass(frozen=True)
@@ -212,13 +234,16 @@ def _process_spec(
     node = resolved.node
     check_prefix(node.prefix)
     name = f'{node.executable}-{number}'
-    files: list[tuple[Path, str | None]] = []
+    files: list[tuple[Path, str | LateText | None]] = []
     for index, entry in enumerate(resolved.parameters, start=1):
         if isinstance(entry, str | Path):
             files.append((path_of(str(entry)), None))
             continue
+        text: str | LateText
         if isinstance(entry, ParameterText):
             text = entry.text
+        elif isinstance(entry, LateTable):
+            text = LateText(partial(_late_text, name, resolved, entry), entry.text)
         else:
             text = _parameters_text(name, resolved, entry)
         files.append((folder / f'{name}-parameters-{index}.yaml', text))
@@ -241,6 +266,10 @@ def _program(node: Node, environment: Mapping[str, str | None]) -> Path:
     if found is None:
         raise BringupError(f"there is no command '{word}' on the PATH")
     return Path(found)
+
+
+def _late_text(name: str, resolved: ResolvedNode, table: LateTable) -> str:
+    return _parameters_text(name, resolved, table.make())
 
 
 def _parameters_text(

@@ -6,7 +6,7 @@ What a stack is written with: :class:`Node`, :class:`Group` and :class:`Stack`, 
 A value of the wrong type raises BringupError at once, with the field that it was given for.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, KW_ONLY, replace
 from os import PathLike
 from pathlib import Path
@@ -46,7 +46,19 @@ class ParameterText:
     text: str
 
 
-Parameters: TypeAlias = Sequence[Mapping[str, ParameterValue] | ParameterText | str | Path]
+@dataclass(frozen=True)
+class LateTable:
+    """A table of parameters that is known only when the node starts."""
+
+    make: Callable[[], Mapping[str, ParameterValue]]
+    """Raises BringupError: then the node is not started."""
+    text: str
+    """Its source, for ``--print``."""
+
+
+Parameters: TypeAlias = Sequence[
+    Mapping[str, ParameterValue] | ParameterText | LateTable | str | Path
+]
 
 DEFAULT_TIMEOUT = 60.0
 """s"""
@@ -57,7 +69,7 @@ _COMMON_FIELDS = {
     'environment': validation.ENVIRONMENT,
     'parameters': validation.list_of(
         "tables and files, as [{'speed': 1.0}, 'arm.yaml']",
-        lambda entry: isinstance(entry, Mapping | ParameterText | str | PathLike),
+        lambda entry: isinstance(entry, Mapping | ParameterText | LateTable | str | PathLike),
     ),
     'remappings': validation.REMAPPINGS,
     'start_when': CONDITION.or_none(),

@@ -278,7 +278,12 @@ def _node_lines(spec: ProcessSpec, name_of: NameOf) -> Iterator[str]:
     for path, text in spec.parameter_files:
         if text is not None:
             yield f'{_INDENT}{path}:'
-            yield from (f'{2 * _INDENT}{line}' for line in _shortened(text).splitlines())
+            lines = (
+                _shortened(text).splitlines()
+                if isinstance(text, str)
+                else [f'# known when it starts: {text.text}']
+            )
+            yield from (f'{2 * _INDENT}{line}' for line in lines)
 
 
 def _shortened(text: str) -> str:

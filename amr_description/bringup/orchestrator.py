@@ -34,6 +34,7 @@ from amr_description.bringup.reporter import Reporter
 from amr_description.bringup.run_log import EventLog
 from amr_description.bringup.scheduler import Scheduler
 from amr_description.bringup.terminal import TerminalChild
+from amr_description.errors import BringupError
 
 CANNOT_START = 126  # the exit code that shells give a program that cannot be executed
 _NOBODY_READS = 128 + signal.SIGPIPE  # as of a program that wrote into a closed pipe
@@ -215,8 +216,9 @@ class Orchestrator:
             environment = child_environment(spec.executable, spec.variables(self._environment))
             spec.write_parameter_files()
             child = self._spawn(spec, environment | self._lifeline.variables)
-        except OSError as error:
-            reason = f'could not be started: {spec.explain(error)}'
+        except (OSError, BringupError) as error:
+            why = spec.explain(error) if isinstance(error, OSError) else str(error)
+            reason = f'could not be started: {why}'
             self._reporter.not_started(node, reason)
             self._last_lines[node] = [reason]
             self._scheduler.on_exit(node, CANNOT_START, [reason])

@@ -8,13 +8,18 @@ text of Python stays a text. ``ParameterValue`` says the type.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any, get_args, get_origin, TypeAlias
 
 import yaml
 
-from amr_description.bringup.description import ParameterText, ParameterValue as Plain
+from amr_description.bringup.description import (
+    LateTable,
+    ParameterText,
+    ParameterValue as Plain,
+)
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.locations import Located, refusal
 from amr_description.launch_api.rewriting import WrittenFile
@@ -22,6 +27,7 @@ from amr_description.launch_api.substitutions import (
     is_a_substitution,
     normalize_to_list_of_substitutions,
     perform_substitutions,
+    runs_a_command,
     SomeSubstitutions,
     Substitution,
     text_of,
@@ -34,7 +40,7 @@ _HINT = (
     'launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)'
 )
 
-Entry: TypeAlias = Mapping[str, Plain] | ParameterText | str | Path
+Entry: TypeAlias = Mapping[str, Plain] | ParameterText | LateTable | str | Path
 
 
 class ParameterValue(Located):
@@ -120,7 +126,9 @@ class ParameterFile(Located):
         return ParameterText('\n'.join(replaced) + '\n')
 
 
-def evaluated(context: LaunchContext, parameters: Any, where: str) -> list[Entry]:
+def evaluated(
+    context: LaunchContext, parameters: Any, where: str, *, is_late: bool = False
+) -> list[Entry]:
     """
     Return the parameters of a node as a stack has them.
 
@@ -128,6 +136,7 @@ def evaluated(context: LaunchContext, parameters: Any, where: str) -> list[Entry
         context: what substitutions are performed with.
         parameters: a list of tables, files, Parameter and ParameterFile.
         where: the place of the node.
+        is_late: whether the node starts after others, so that a command may ask what these know.
 
     Raises:
         BringupError: something in it is none of these, or has no type in ROS.
@@ -139,10 +148,10 @@ def evaluated(context: LaunchContext, parameters: Any, where: str) -> list[Entry
         if isinstance(each, ParameterFile):
             entries.append(each.evaluate(context))
         elif isinstance(each, Parameter):
-            name = text_of(context, each.name)
-            entries.append({name: each.evaluate(context, name)})
+            table = {each.name: each}
+            entries.append(_entry(context, table, where, is_late=is_late))
         elif isinstance(each, Mapping):
-            entries.append(_table(context, each, where))
+            entries.append(_entry(context, each, where, is_late=is_late))
         elif isinstance(each, WrittenFile):
             entries.append(ParameterText(each.written(context)))
         elif isinstance(each, PathLike):
@@ -150,6 +159,15 @@ def evaluated(context: LaunchContext, parameters: Any, where: str) -> list[Entry
         else:
             entries.append(Path(text_of(context, each)))
     return entries
+
+
+def _entry(
+    context: LaunchContext, table: Mapping[Any, Any], where: str, *, is_late: bool
+) -> Mapping[str, Plain] | LateTable:
+    if not (is_late and runs_a_command(table)):
+        return _table(context, table, where)
+    commands = ', '.join(f'{text_of(context, key)}: $(command …)' for key in table)
+    return LateTable(partial(_table, context.copy(), table, where), commands)
 
 
 def _table(context: LaunchContext, table: Mapping[Any, Any], where: str) -> dict[str, Plain]:

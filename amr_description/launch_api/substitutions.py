@@ -6,7 +6,7 @@ Texts that are known when a launch description is visited: LaunchConfiguration a
 Descriptions are those that ``ros2 launch --show-args`` prints of default values.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 import os
 from pathlib import Path
 import re
@@ -89,6 +89,19 @@ def _single(value: object) -> list[Substitution]:
     if isinstance(value, Substitution | str | Path):
         return normalize_to_list_of_substitutions(value)
     raise refusal(f'{value!r} in a list is no text and no substitution')
+
+
+def runs_a_command(value: object) -> bool:
+    """Return whether a value, or a substitution somewhere in it, is what a program prints."""
+    if isinstance(value, Command):
+        return True
+    if isinstance(value, Mapping):
+        return any(runs_a_command(each) for pair in value.items() for each in pair)
+    if isinstance(value, list | tuple):
+        return any(map(runs_a_command, value))
+    if isinstance(value, Substitution | Located):
+        return any(map(runs_a_command, vars(value).values()))
+    return False
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:

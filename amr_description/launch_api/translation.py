@@ -14,6 +14,7 @@ As in launch, a failure of a process stops nothing, waits have no timeout, and a
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 import math
 import os
 from pathlib import Path
@@ -76,7 +77,12 @@ from amr_description.launch_api.locations import at, refusal
 from amr_description.launch_api.parameters import evaluated
 from amr_description.launch_api.processes import ExecuteProcess, Node
 from amr_description.launch_api.ros_actions import joined_namespace
-from amr_description.launch_api.substitutions import perform_substitutions, text_of
+from amr_description.launch_api.substitutions import (
+    perform_substitutions,
+    runs_a_command,
+    Substitution,
+    text_of,
+)
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 
 _STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner', 'ros2')
@@ -244,12 +250,16 @@ class Translation:
             self.visit(timer.actions)
 
     def _log(self, action: Log) -> None:
-        level = perform_substitutions(self.context, action.level).upper()
-        text = perform_substitutions(self.context, action.msg)
-        line = handlers.Log(text, _LEVELS.get(level, 'INFO'))
-        if self.when is None:
-            self.notes.append((line.level, line.text))
+        level = _LEVELS.get(perform_substitutions(self.context, action.level).upper(), 'INFO')
+        if self.when is not None and runs_a_command(action.msg):
+            later = partial(_logged, self.context.copy(), action.msg, level)
+            self.event_handlers.append(EventHandler(self.when, later, 'log what a command prints'))
             return
+        text = perform_substitutions(self.context, action.msg)
+        if self.when is None:
+            self.notes.append((level, text))
+            return
+        line = handlers.Log(text, level)
         self.event_handlers.append(EventHandler(self.when, lambda _: line, f"log '{text}'"))
 
     def _ask(self, action: EmitEvent | LifecycleTransition) -> None:
@@ -332,7 +342,9 @@ class Translation:
         given = context.launch_configurations
         own = '' if action.namespace is None else text_of(context, action.namespace)
         outer = str(given.get(NAMESPACE, ''))
-        parameters = [*given.get(PARAMETERS, ()), *evaluated(context, action.parameters, '')]
+        is_late = self.when is not None
+        own_parameters = evaluated(context, action.parameters, '', is_late=is_late)
+        parameters = [*given.get(PARAMETERS, ()), *own_parameters]
         for each in parameters:
             if isinstance(each, Path):
                 opened_files.note(str(path_of(str(each))))
@@ -442,6 +454,16 @@ class Translation:
             handler = OnProcessExit(target_action=action, on_exit=action.on_exit)
             handler.where = action.where
             self.handling.add(Registered(handler, self.context.copy(), None))
+
+
+def _logged(
+    context: LaunchContext, message: list[Substitution], level: Level, _state: object
+) -> handlers.Log:
+    """Return a line that could not be known before."""
+    try:
+        return handlers.Log(perform_substitutions(context, message), level)
+    except BringupError as error:
+        return handlers.Log(str(error), 'ERROR')
 
 
 def _full_name(node: NodeRef | None) -> str:

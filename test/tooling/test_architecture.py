@@ -36,15 +36,16 @@ FEW_LINES = 80
 # their topics, what clients of Nav2's servers ask a navigator, and Python packages of ROS that
 # nodes import: nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py,
 # tf_transformations; and what the page says of the graph (frames with a static second parent,
-# clouds in part or whole, errors while nobody looks, what is recorded of it).
+# clouds in part or whole, errors while nobody looks, what is recorded of it),
+# and what commands of launch files print when their time has come.
 BUDGETS = {
     'modules': 832,
-    'code lines': 95_173,
+    'code lines': 95_246,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_336,
+    'code lines of helpers in test files': 26_335,
 }
 
 BASE = {

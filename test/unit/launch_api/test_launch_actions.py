@@ -322,6 +322,34 @@ def test_a_file_that_starts_no_process_says_its_lines_and_is_over(launch):
     assert scheduler.over
 
 
+def test_what_a_command_prints_is_asked_when_its_time_has_come(launch, tmp_path):
+    """As of a running robot_state_publisher, which has the description of the others."""
+    said = tmp_path / 'said'
+    stack = launch(f"""
+        a,
+        TimerAction(period=2.0, actions=[
+            LogInfo(msg=['it says ', Command('cat {said}')]),
+            Node(package='amr_description', executable='talker', parameters=[
+                {{'robot_description': Command('cat {said}')}}, {{'speed': 1.0}}]),
+        ]),
+    """, HANDLERS)  # fmt: skip
+    scheduler = Scheduler(stack)
+    scheduler.advance_to(3.0)
+    assert [(line.level, 'cat' in line.text) for line in scheduler.lines] == [('ERROR', True)]
+    node = stack.nodes[1]
+    _, spec = process_specs(stack, tmp_path)
+    assert node.parameters[1] == {'speed': 1.0}
+    with pytest.raises(BringupError, match=r'executed command failed\. Command: cat'):
+        spec.write_parameter_files()
+    said.write_text('<robot/>')
+    spec.write_parameter_files()
+    (path, _), _ = spec.parameter_files
+    assert 'robot_description: <robot/>' in path.read_text()
+    scheduler = Scheduler(stack)
+    scheduler.advance_to(3.0)
+    assert [line.text for line in scheduler.lines] == ['it says <robot/>']
+
+
 def test_functions_are_called_when_the_event_comes(launch):
     stack = launch("""
         a, b,
