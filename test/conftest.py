@@ -41,7 +41,7 @@ sys.path[:0] = [str(ROOT / 'scripts'), str(ROOT)]
 
 pytest_plugins = ['support.open_path', 'support.stderr_file']
 preloaded.start_for(program)  # the simulators of tests that are written as users write theirs
-LONGEST_TEST = 600.0
+LONGEST_TEST = 300.0
 """s; the longest takes 15 s by itself, and a minute on a busy machine."""
 KEPT = {}  # what has to last as long as the run
 

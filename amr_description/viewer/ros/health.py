@@ -14,6 +14,7 @@ from functools import partial
 import math
 import re
 import time
+from typing import TypeAlias
 
 from rclpy.node import Node
 
@@ -26,7 +27,9 @@ from amr_description.viewer.introspection import FindingInfo, Findings
 _PERIOD = 25.0
 """s from one examination to the next while pages show it: each takes 0.2 s of a processor."""
 _SLOW_PERIOD = 60.0
-"""… while pages only want to know of errors."""
+"""… at least, while pages only want to know of errors: then it waits for a change of the graph."""
+_LOOK = 5.0
+"""s between two looks for such a change."""
 _DISCOVERY = 1.0
 """s from a page's first look to the examination: until then what there is has been discovered."""
 _SLOW_DISCOVERY = 10.0
@@ -41,6 +44,9 @@ _PROBES = {name: probe for name, probe in PROBES.items() if name != 'navigation'
 }
 
 
+Graph: TypeAlias = tuple[object, object] | None
+
+
 class Health:
     """Examines the graph again and again while pages watch it; on the ROS thread."""
 
@@ -52,6 +58,9 @@ class Health:
         """When the next examination begins, s of a monotonic clock."""
         self._is_shown = False
         self._began = 0.0
+        self._looked = 0.0
+        self._graph: Graph = None
+        """Of the last examination."""
         self._doctor: Node | None = None
         self._examination: RosExamination | None = None
         self.latest: Findings | None = None
@@ -68,21 +77,26 @@ class Health:
             return
         now = time.monotonic()
         if self.latest is None:
-            due = now + (_DISCOVERY if is_shown else _SLOW_DISCOVERY)
-        else:
-            due = self._began + self._period
-        self._due = min(self._due, due)
+            self._due = min(self._due, now + (_DISCOVERY if is_shown else _SLOW_DISCOVERY))
+        elif is_shown:
+            self._due = min(self._due, self._began + _PERIOD)
+        elif now - self._looked >= _LOOK:
+            self._looked = now
+            is_other = self._graph != self._graph_now()
+            self._due = max(now, self._began + _SLOW_PERIOD) if is_other else math.inf
 
-    @property
-    def _period(self) -> float:
-        return _PERIOD if self._is_shown else _SLOW_PERIOD
+    def _graph_now(self) -> Graph:
+        """Return the nodes and topics that there are: most faults come with a new one."""
+        node = self._node
+        nodes = [each for each in node.get_node_names_and_namespaces() if each[0] != _NODE]
+        return sorted(nodes), sorted(node.get_topic_names_and_types())
 
     def poll(self) -> None:
         """Go on with the examination; a few times a second."""
         now = time.monotonic()
         if self._examination is None:
             if now >= self._due:
-                self._began, self._due = now, now + self._period
+                self._began, self._due, self._graph = now, math.inf, self._graph_now()
                 self._begin()
             return
         if self._examination.is_done or now - self._began >= WINDOW:
