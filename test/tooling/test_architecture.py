@@ -37,15 +37,16 @@ FEW_LINES = 80
 # nodes import: nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py,
 # tf_transformations; and what the page says of the graph (frames with a static second parent,
 # clouds in part or whole, errors while nobody looks, what is recorded of it),
-# and what commands of launch files print when their time has come.
+# and what commands of launch files print when their time has come. Of helpers: a listener that
+# gives no answer.
 BUDGETS = {
     'modules': 832,
-    'code lines': 95_246,
+    'code lines': 95_285,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_335,
+    'code lines of helpers in test files': 26_348,
 }
 
 BASE = {

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from amr_description.cli.session import Session
 
 _HINT_AFTER = 3  # s of waiting for subscriptions until a hint is looked for, every second then
+_MOMENT = 0.1  # s for a node that cannot be asked
 _MATCHING_TIME = 1.0  # s, at most, from the discovery of a subscription until it is matched
 
 
@@ -138,6 +139,8 @@ def main(args: Namespace) -> int:
         _wait_for_subscriptions(session, publisher, awaited, args.max_wait_time_secs, others)
         if awaits_all:
             _wait_for_all_there(session, publisher)
+        if times:
+            _wait_for_best_effort(session, publisher)
         print('publisher: beginning loop')
         _Loop(session, publisher, message, stamps, args.print).run(times, args.rate, others)
         session.spin(lambda: publisher.wait_for_all_acked(Duration()), DELIVERY_TIME)
@@ -190,6 +193,47 @@ def _wait_for_all_there(session: 'Session', publisher: 'Publisher') -> None:
 
     wait_for_discovery(session, 0.0)
     session.spin(all_matched, _MATCHING_TIME)
+
+
+def _wait_for_best_effort(session: 'Session', publisher: 'Publisher') -> None:
+    """
+    Wait until those who subscribe by best effort know the publisher, too.
+
+    That they are matched here says nothing of them, and what comes to them before is lost: on a
+    busy machine one of five commands was. A participant learns of the endpoints of another one in
+    the order in which they were made, so a node that has answered a client that was made after the
+    publisher knows both. A node without services of parameters is given a moment.
+    """
+    from rcl_interfaces.srv import GetParameterTypes
+    from rclpy.qos import ReliabilityPolicy
+
+    from amr_description.ros.endpoints import endpoint_node
+
+    node = session.node
+    names = {
+        endpoint_node(each)
+        for each in node.get_subscriptions_info_by_topic(publisher.topic_name)
+        if each.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
+    }
+    clients = [
+        node.create_client(GetParameterTypes, f'{name}/get_parameter_types')
+        for name in names
+        if name is not None
+    ]
+    answers: dict[Any, Any] = {}
+    begin = session.clock.now()
+
+    def is_known(client: Any) -> bool:
+        if client in answers:
+            return bool(answers[client].done())
+        if client.service_is_ready():
+            answers[client] = client.call_async(GetParameterTypes.Request())
+        is_offered = node.count_services(client.srv_name) > 0
+        return not is_offered and session.clock.now() - begin > _MOMENT
+
+    session.spin(lambda: all([is_known(each) for each in clients]), _MATCHING_TIME)
+    for client in clients:
+        node.destroy_client(client)
 
 
 def _print_hint(session: 'Session', publisher: 'Publisher') -> bool:

@@ -31,6 +31,25 @@ rclpy.spin(node)
 """
 
 
+BEST_EFFORT = """
+import time
+import rclpy
+from rclpy.qos import qos_profile_sensor_data
+from std_msgs.msg import String
+from amr_description.ros.rclpy_internals import take_message
+rclpy.init()
+node = rclpy.create_node('listener')
+heard = lambda message: print('heard', message.data, flush=True)
+subscription = node.create_subscription(String, '/words', heard, qos_profile_sensor_data)
+print('there', flush=True)
+while not subscription.get_publisher_count():
+    time.sleep(0.01)
+time.sleep(0.3)  # no answer is given meanwhile
+print('it came' if take_message(subscription) else 'nothing came before the answer', flush=True)
+rclpy.spin(node)
+"""
+
+
 @pytest.fixture(scope='module')
 def fixture_node():
     with running_node('fixture_node.py') as node:
@@ -61,6 +80,15 @@ def test_once_reaches_all_who_are_there_not_only_the_first_that_is_found(fixture
                 assert program.end() == 0
         finally:
             fixture_node.signal(signal.SIGCONT)
+
+
+def test_once_waits_until_who_listens_by_best_effort_has_answered():
+    """Until then that one may not know the publisher, and what comes is lost."""
+    with Program.of(BEST_EFFORT) as listener:
+        listener.expect('there')
+        with started('topic', 'pub', '--once', '/words', 'std_msgs/msg/String', 'data: a'):
+            listener.expect('nothing came before the answer')
+            listener.expect('heard a')
 
 
 def test_auto_stamps_every_message(fixture_node):
