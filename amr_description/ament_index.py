@@ -24,6 +24,12 @@ from amr_description.text import did_you_mean, shorten, suggestion
 OWN_PACKAGE = 'amr_description'
 _OWN_EXECUTABLE = 'ros2_control_node'  # by which an installation of it is known
 _INDEX = 'share/ament_index/resource_index/packages'
+_STANDS_IN = b'of amr_description'
+"""
+What the index says of a package in whose place something of ours is (``scripts/environment``).
+
+Programs of others find it there; here it counts as not installed, so that this is said.
+"""
 _NAME = re.compile(r'[a-zA-Z0-9][a-zA-Z0-9_-]+')  # REP 127, with what it exempts
 _MODULES = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
@@ -44,9 +50,22 @@ def packages() -> dict[str, Path]:
     found: dict[str, Path] = {}
     for prefix in reversed(prefixes()):  # the first one counts
         with suppress(OSError):  # no folder, or none of an index
-            names = (each.name for each in (prefix / _INDEX).iterdir() if each.is_file())
+            names = (each.name for each in (prefix / _INDEX).iterdir() if _is_package(each))
             found |= dict.fromkeys((name for name in names if not name.startswith('.')), prefix)
     return dict(sorted(found.items()))
+
+
+def _is_package(entry: Path) -> bool:
+    """Return whether an entry of an index is of a package, and of none that has a stand-in."""
+    if not entry.is_file():
+        return False
+    return entry.stat().st_size != len(_STANDS_IN) or entry.read_bytes() != _STANDS_IN
+
+
+def stands_in(package: str, prefix: Path) -> bool:
+    """Return whether what a prefix has of a package is something of ours in its place."""
+    entry = prefix / _INDEX / package
+    return entry.is_file() and not _is_package(entry)
 
 
 def is_installed(package: str) -> bool:
@@ -67,7 +86,7 @@ def package_prefix(package: str) -> Path:
         )
     with suppress(OSError, ValueError):  # a name that no file can have
         for prefix in prefixes() if _NAME.fullmatch(package) else ():
-            if (prefix / _INDEX / package).is_file():
+            if _is_package(prefix / _INDEX / package):
                 return prefix
     searched = ', '.join(map(str, prefixes()))
     raise ResourceError(

@@ -14,7 +14,7 @@ from pathlib import Path
 from ament_index_python import get_package_prefix
 from ament_index_python.packages import PackageNotFoundError
 
-from amr_description.ament_index import is_installed, own_share
+from amr_description.ament_index import is_installed, own_share, stands_in
 from amr_description.errors import BringupError
 from amr_description.launch_api.locations import refusal
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES, STAND_INS
@@ -133,11 +133,14 @@ def prefix_of(package: str) -> str:
     Raises BringupError: it is not installed, and not known.
     """
     try:
-        return str(get_package_prefix(package))
+        prefix = str(get_package_prefix(package))
     except (PackageNotFoundError, OSError, ValueError):
-        if package in _KNOWN:
-            return str(own_share() / _FOLDER)
-        raise missing(package) from None
+        prefix = None
+    if prefix is not None and not (package in _KNOWN and stands_in(package, Path(prefix))):
+        return prefix
+    if package in _KNOWN:
+        return str(own_share() / _FOLDER)
+    raise missing(package)
 
 
 def in_package(path: Path) -> tuple[str, str] | None:

@@ -29,9 +29,14 @@ shell; it names colcon's build folder, where the package's metadata are too.
 message_filters, sensor_msgs_py, nav2_simple_commander, cv_bridge and others. Nodes and tests that
 import them get those of this package, under the names of the originals' modules.
 
+**Packages in the index.** What ``ros2 run`` and launch files of ours start in place of packages
+that are not installed, genuine ones find too: an entry of the ament index, ``package.xml`` and
+``lib/<package>/<executable>``. A workspace's own package of that name comes first.
+
 **Packages of CMake.** Of those that PyPI has not, ``cmake/`` holds what packages of users ask for.
 """
 
+import ast
 import os
 from pathlib import Path
 import shlex
@@ -149,6 +154,25 @@ amr_description = colcon_amr_description:ContinueOnError
 """,
 }
 
+STAND_INS = Path(PACKAGE, 'stand_ins.py')
+STANDS_IN = 'of amr_description'  # as ament_index.py has it
+PACKAGE_XML = """\
+<?xml version="1.0"?>
+<package format="3">
+  <name>{package}</name>
+  <version>0.0.0</version>
+  <description>Written by scripts/setup: what amr_description has in place of it</description>
+  <maintainer email="nobody@localhost">amr_description</maintainer>
+  <license>Apache-2.0</license>
+</package>
+"""
+STAND_IN = """\
+#!/bin/sh
+exec {executable} "$@"
+"""
+_OF_USERS = {'py_pubsub'}  # which the tutorial has them make
+_OF_TOOLS = {'ament_copyright', 'colcon_amr_description'}
+
 LOCAL_SETUP = """\
 # Written by scripts/setup: this virtual environment as a ROS prefix (the underlay of workspaces).
 case ":${{PATH-}}:" in *:{bin}:*) ;; *) export PATH={bin}"${{PATH:+:$PATH}}" ;; esac
@@ -192,6 +216,33 @@ def cmake_packages(venv: Path) -> dict[Path, str]:
     return found
 
 
+def stand_ins(table: str, executable: str) -> dict[Path, str]:
+    """
+    Return the text of what programs of others find in place of packages, by its path in a prefix.
+
+    Args:
+        table: The text of ``stand_ins.py``.
+        executable: The path of an executable of ours, for a shell, with ``{name}`` in it.
+    """
+    (value,) = (
+        each.value
+        for each in ast.parse(table).body
+        if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]) == 'STAND_INS'
+    )
+    pairs = {
+        pair: ours for pair, ours in ast.literal_eval(value).items() if pair[0] not in _OF_USERS
+    }
+    found = {}
+    imported = {name.partition('.')[0] for name in MODULES} - _OF_TOOLS
+    for package in sorted(imported | {package for package, _ in pairs}):
+        found[Path('share/ament_index/resource_index/packages', package)] = STANDS_IN
+        found[Path('share', package, 'package.xml')] = PACKAGE_XML.format(package=package)
+    for (package, name), ours in pairs.items():
+        text = STAND_IN.format(executable=executable.format(name=ours))
+        found[Path('lib', package, name)] = text
+    return found
+
+
 def files(venv: Path, home: Path, checkout: Checkout) -> dict[Path, str]:
     """Return the text of each file, by its path in ``venv``, as it has to be at ``home``."""
     build = checkout.build
@@ -217,6 +268,13 @@ def files(venv: Path, home: Path, checkout: Checkout) -> dict[Path, str]:
         },
         venv / 'bin' / 'bringup': BRINGUP.format(install=shlex.quote(str(checkout.install))),
         **{venv / f'local_setup.{shell}': local_setup for shell in ('sh', 'bash', 'zsh')},
+        **{
+            venv / path: text
+            for path, text in stand_ins(
+                Path(__file__).parents[2].joinpath(STAND_INS).read_text(),
+                shlex.quote(str(checkout.install / 'lib' / PACKAGE)) + '/{name}',
+            ).items()
+        },
         **cmake_packages(venv),
         packages / f'{PACKAGE}.pth': f'{build}\n',
         **{packages / path: text for path, text in modules(build).items()},
@@ -227,4 +285,5 @@ def write(venv: Path, home: Path, checkout: Checkout) -> None:
     """Write the files that are not there already, commands with the execute bit."""
     for file, text in files(venv, home, checkout).items():
         if not file.is_file() or file.read_text() != text:
-            stamps.replace_file(file, text, 0o755 if file.parent.name in EXECUTABLE else 0o644)
+            is_program = file.parent.name in EXECUTABLE or file.parents[1] == venv / 'lib'
+            stamps.replace_file(file, text, 0o755 if is_program else 0o644)

@@ -15,6 +15,7 @@ import os
 from pathlib import Path
 import tempfile
 
+from environment import launchers
 from environment.commands import run
 from environment.virtual_environment import python_of
 
@@ -84,6 +85,7 @@ def of_ros(package: Mapping[str, Member], lock: str) -> dict[str, Member]:
         pythons=metadata['Requires-Python'],
         requires='\n'.join(f'Requires-Dist: {each}' for each in required),
     )
+    table = package[str(launchers.STAND_INS)].content.decode()
     info = f'amr_description_ros-{version}'
     data = f'{info}.data'
     whole: dict[str, Member] = {}
@@ -93,6 +95,8 @@ def of_ros(package: Mapping[str, Member], lock: str) -> dict[str, Member]:
         (f'{data}/scripts', prefix_files.commands(), True),
         (f'{data}/data/lib/{prefix_files.PACKAGE}', prefix_files.executables(executables), True),
         (f'{data}/data', prefix_files.tools(), True),
+        (f'{data}/data', prefix_files.stand_ins(table, programs=True), True),
+        (f'{data}/data', prefix_files.stand_ins(table, programs=False), False),
         (f'{data}/data', prefix_files.hooks() | prefix_files.cmake_packages(), False),
         ('', prefix_files.modules(), False),
     ):

@@ -201,6 +201,21 @@ def cmake_packages() -> dict[str, str]:
     return {str(path.relative_to('prefix')): text for path, text in files.items()}
 
 
+def stand_ins(table: str, *, programs: bool) -> dict[str, str]:
+    """
+    Return the text of what stands in for packages, by its path in the prefix.
+
+    Args:
+        table: The text of ``stand_ins.py``.
+        programs: Whether to return executables, or else what is none.
+    """
+    ours = f'"$(dirname -- "$0")"/../{PACKAGE}/{{name}}'
+    files = launchers.stand_ins(table, ours)
+    return {
+        str(path): text for path, text in files.items() if (path.parts[0] == 'lib') == programs
+    }
+
+
 def modules() -> dict[str, str]:
     """Return the text of each module under its name in ROS, by its path in site-packages."""
     packages = {name.partition('.')[0] for name in launchers.MODULES}

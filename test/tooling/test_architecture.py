@@ -41,12 +41,12 @@ FEW_LINES = 80
 # gives no answer.
 BUDGETS = {
     'modules': 832,
-    'code lines': 95_285,
+    'code lines': 95_296,
     'small modules of one importer beside them': 41,
     'class names used twice': 34,
     'modules excused from a check of types': 12,
     'modules with many public names': 27,
-    'code lines of helpers in test files': 26_348,
+    'code lines of helpers in test files': 26_347,
 }
 
 BASE = {

@@ -187,6 +187,29 @@ class TestActivate:
             *programs, f'{install}:{ROOT}/.venv', 'jazzy LOCALHOST', install,
         ]  # fmt: skip
 
+    def test_programs_of_others_find_what_stands_in_for_packages(self, shell, tmp_path):
+        robot = tmp_path / 'r.urdf.xacro'
+        robot.write_text(
+            '<robot name="$(find xacro)" xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
+        )
+        code = (
+            'from ament_index_python.packages import *;'
+            'print(get_package_share_directory("controller_manager"), "py_pubsub" in '
+            'get_packages_with_prefixes())'
+        )
+        done = shell_run(
+            f". {ACTIVATE}; python -c '{code}'; xacro {robot} | tail -1;"
+            ' $VIRTUAL_ENV/lib/controller_manager/spawner --help | head -1;'
+            ' ros2 pkg prefix controller_manager; ros2 run xacro xacro --help 2>&1 | head -1',
+            shell,
+        )
+        share, found, usage, run = done.stdout.splitlines()
+        assert share == f'{ROOT}/.venv/share/controller_manager False'
+        assert found == f'<robot name="{ROOT}/.venv/share/xacro"/>'
+        assert usage.startswith('usage: spawner')
+        assert 'Package not found' in done.stderr
+        assert "package 'xacro' is not installed: running 'xacro' of amr_description" in run
+
     def test_nothing_that_foreign_programs_would_feel(self, shell):
         done = shell_run(f'. {ACTIVATE}; env', shell)
         names = {line.partition('=')[0] for line in done.stdout.splitlines()}
