@@ -202,6 +202,7 @@ class TestActivate:
             ' $VIRTUAL_ENV/lib/controller_manager/spawner --help | head -1;'
             ' ros2 pkg prefix controller_manager; ros2 run xacro xacro --help 2>&1 | head -1',
             shell,
+            HOME=str(tmp_path),
         )
         share, found, usage, run = done.stdout.splitlines()
         assert share == f'{ROOT}/.venv/share/controller_manager False'
