@@ -38,15 +38,16 @@ FEW_LINES = 80
 # tf_transformations; and what the page says of the graph (frames with a static second parent,
 # clouds in part or whole, errors while nobody looks, what is recorded of it),
 # and what commands of launch files print when their time has come. Of helpers: a listener that
-# gives no answer.
+# gives no answer. diagnostic_updater and rosbag2_py have many names, four of them also the bag's:
+# those of the originals.
 BUDGETS = {
-    'modules': 832,
-    'code lines': 95_296,
+    'modules': 834,
+    'code lines': 95_877,
     'small modules of one importer beside them': 41,
-    'class names used twice': 34,
+    'class names used twice': 38,
     'modules excused from a check of types': 12,
-    'modules with many public names': 27,
-    'code lines of helpers in test files': 26_347,
+    'modules with many public names': 29,
+    'code lines of helpers in test files': 26_396,
 }
 
 BASE = {
@@ -78,7 +79,7 @@ ARROWS = {
     'tf2_ros': {'ros', 'model', 'sensor_msgs_py'},  # of clouds
     'message_filters': set(),
     'nav2_simple_commander': set(),
-    'ros_packages': {'ros'},
+    'ros_packages': {'bag', 'ros'},
     'sensor_msgs_py': set(),
     'ament_copyright': set(),
     'workspace': set(),
