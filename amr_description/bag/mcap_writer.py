@@ -1,10 +1,10 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""``BagWriter``: a folder of MCAP files, as rosbag2 writes it."""
+"""``BagWriter``: a folder of MCAP files, or of SQLite's, as rosbag2 writes it."""
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from amr_description.bag import compression, metadata, qos_text, schemas
 from amr_description.bag.mcap_options import DEFAULTS, PRESETS
 from amr_description.bag.metadata import BagMetadata, FileInformation, TopicInformation
 from amr_description.bag.reader import reindexed
+from amr_description.bag.sqlite_file import SqliteOutput
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
 
@@ -64,6 +65,8 @@ class OutputFile:
         self._file.close()
 
 
+ENDS = {'mcap': '.mcap', 'sqlite3': '.db3'}
+"""How the names of files end, by the storages that are written."""
 MINIMUM_SPLIT_SIZE = 1024
 """Bytes: rosbag2 splits at no smaller ones."""
 
@@ -72,6 +75,8 @@ MINIMUM_SPLIT_SIZE = 1024
 class WriterOptions:
     """How a bag is written."""
 
+    storage: str = 'mcap'
+    """Or ``sqlite3``, for programs that read nothing else: it has no presets and settings."""
     preset: str = 'none'
     settings: Mapping[str, Any] = field(default_factory=dict)
     """For the library of MCAP, above those of the preset."""
@@ -103,11 +108,13 @@ class BagWriter:
                 f'{MINIMUM_SPLIT_SIZE}. Specified value of {self.options.max_bag_size}'
             )
         self.folder = folder
-        self.metadata = BagMetadata(custom_data=dict(self.options.custom_data))
+        self.metadata = BagMetadata(
+            self.options.storage, custom_data=dict(self.options.custom_data)
+        )
         self._topics: dict[str, TopicMetadata] = {}
         self._counts: dict[str, int] = {}
         self._texts: dict[str, str] = {}
-        self._file: _McapFile | None = None
+        self._file: _McapFile | SqliteOutput | None = None
         self._is_closed = False
         self._has_failed = False
         try:
@@ -226,18 +233,22 @@ class BagWriter:
                 raise
             raise BagError(f'{what}: {error}') from error
 
-    def _is_full(self, file: '_McapFile', log_time: int) -> bool:
+    def _is_full(self, file: '_McapFile | SqliteOutput', log_time: int) -> bool:
         options = self.options
         return (
             0 < options.max_bag_size <= file.size
             or 0 < options.max_bag_duration < log_time - file.information.starting_time
         )
 
-    def _open(self) -> '_McapFile':
-        name = f'{self.folder.name}_{len(self.metadata.files)}.mcap'
-        file = _McapFile(
-            self.folder / name, {**PRESETS[self.options.preset], **self.options.settings}
-        )
+    def _open(self) -> '_McapFile | SqliteOutput':
+        options = self.options
+        name = f'{self.folder.name}_{len(self.metadata.files)}{ENDS[options.storage]}'
+        path = self.folder / name
+        file: _McapFile | SqliteOutput
+        if options.storage == 'mcap':
+            file = _McapFile(path, {**PRESETS[options.preset], **options.settings})
+        else:
+            file = SqliteOutput(path)
         self.metadata.relative_file_paths.append(name)
         self.metadata.files.append(file.information)
         for topic in self._topics.values():
@@ -313,14 +324,7 @@ class _McapFile:
         )
         self._waiting = 0 if self._output.tell() > before else self._waiting + len(message.data)
         self._counts[message.topic] = self._counts.get(message.topic, 0) + 1
-        file = self.information
-        if not file.message_count:
-            file.starting_time = message.log_time
-        elif message.log_time < file.starting_time:
-            file.duration += file.starting_time - message.log_time
-            file.starting_time = message.log_time
-        file.duration = max(file.duration, message.log_time - file.starting_time)
-        file.message_count += 1
+        self.information.include(message.log_time)
 
     def flush(self) -> None:
         self._writer.flush()
@@ -328,21 +332,7 @@ class _McapFile:
 
     def close(self, whole: BagMetadata) -> None:
         """Complete the file, which also has the metadata of itself alone: it plays alone."""
-        file = self.information
-        alone = replace(
-            whole,
-            starting_time=file.starting_time,
-            duration=file.duration,
-            message_count=file.message_count,
-            topics_with_message_count=[
-                replace(topic, message_count=self._counts.get(topic.topic_metadata.name, 0))
-                for topic in whole.topics_with_message_count
-            ],
-            relative_file_paths=[file.path],
-            files=[file],
-            compression_format='',
-            compression_mode='',
-        )
+        alone = whole.of_file(self.information, self._counts)
         try:
             if self._output.is_cut_off:
                 return

@@ -3,7 +3,7 @@
 """``metadata.yaml`` of a bag: version 9 is written, all up to it are read."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,16 @@ class FileInformation:
     starting_time: int = 0
     duration: int = 0
     message_count: int = 0
+
+    def include(self, log_time: int) -> None:
+        """Count a message that was received at a time."""
+        if not self.message_count:
+            self.starting_time = log_time
+        elif log_time < self.starting_time:
+            self.duration += self.starting_time - log_time
+            self.starting_time = log_time
+        self.duration = max(self.duration, log_time - self.starting_time)
+        self.message_count += 1
 
 
 @dataclass
@@ -58,6 +68,23 @@ class BagMetadata:
     def end_time(self) -> int:
         """When the last message was received."""
         return self.starting_time + self.duration
+
+    def of_file(self, file: FileInformation, counts: Mapping[str, int]) -> 'BagMetadata':
+        """Return what a file says that may be played alone; ``counts``: of it, by topic."""
+        return replace(
+            self,
+            starting_time=file.starting_time,
+            duration=file.duration,
+            message_count=file.message_count,
+            topics_with_message_count=[
+                replace(topic, message_count=counts.get(topic.topic_metadata.name, 0))
+                for topic in self.topics_with_message_count
+            ],
+            relative_file_paths=[file.path],
+            files=[file],
+            compression_format='',
+            compression_mode='',
+        )
 
     def span_files(self) -> None:
         """Set the times to those of all files."""

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-A file of ``rosbag2_storage_sqlite3``, the storage of older distributions, to read.
+A file of ``rosbag2_storage_sqlite3``, the storage of older distributions, to read and to write.
 
 By the standard library: ``rosbags`` would bring four packages with it, for two tables.
 """
@@ -15,14 +15,37 @@ import sqlite3
 import tempfile
 from typing import Any
 
-from amr_description.bag import compression, qos_text
-from amr_description.bag.metadata import FileInformation, TopicInformation
+from amr_description.bag import compression, metadata, qos_text
+from amr_description.bag.metadata import (
+    BagMetadata,
+    FileInformation,
+    ROS_DISTRO,
+    TopicInformation,
+)
 from amr_description.bag.storage import BagMessage, FileExtent, TopicMetadata
 from amr_description.errors import BagError
 from amr_description.text import shorten
 
 MAGIC = b'SQLite format 3\0'
 _LATEST = 2**63 - 1  # ns; larger integers SQLite does not know
+_VERSION = 4  # of the tables: Iron's to Jazzy's
+_AT_ONCE = 1_000_000  # bytes of messages that may be lost when a program is killed
+_TABLES = """
+CREATE TABLE schema(schema_version INTEGER PRIMARY KEY, ros_distro TEXT NOT NULL);
+CREATE TABLE metadata(
+  id INTEGER PRIMARY KEY, metadata_version INTEGER NOT NULL, metadata TEXT NOT NULL);
+CREATE TABLE topics(
+  id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,
+  serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL,
+  type_description_hash TEXT NOT NULL);
+CREATE TABLE message_definitions(
+  id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL, encoding TEXT NOT NULL,
+  encoded_message_definition TEXT NOT NULL, type_description_hash TEXT NOT NULL);
+CREATE TABLE messages(
+  id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL,
+  data BLOB NOT NULL);
+CREATE INDEX timestamp_idx ON messages (timestamp ASC);
+"""
 
 
 class SqliteFile:
@@ -154,6 +177,89 @@ class SqliteFile:
                 if not isinstance(data, bytes):
                     raise BagError(f'cannot read {self.path}: a message of it has no data')
                 yield BagMessage(names[number], data, time, time)
+
+
+class SqliteOutput:
+    """One file of a bag that is written. Methods raise OSError."""
+
+    def __init__(self, path: Path) -> None:
+        """Create the file, also if it is there."""
+        self.information = FileInformation(path.name)
+        self._counts: dict[str, int] = {}
+        self._numbers: dict[str, int] = {}
+        self._types: set[str] = set()
+        self._waiting = self._written = 0
+        with self._faults():
+            # A recorder writes in another thread than the one that opened it.
+            self._base = sqlite3.connect(path, check_same_thread=False, isolation_level=None)
+            self._base.executescript(f'PRAGMA synchronous = NORMAL; {_TABLES} BEGIN;')
+            self._base.execute('INSERT INTO schema VALUES (?, ?)', (_VERSION, ROS_DISTRO))
+
+    @staticmethod
+    @contextmanager
+    def _faults() -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise OSError(str(error)) from error
+
+    @property
+    def size(self) -> int:
+        """Bytes of the messages."""
+        return self._written
+
+    def add_topic(self, topic: TopicMetadata, text: str) -> None:
+        """Declare a topic; ``text``: of its type."""
+        with self._faults():
+            if topic.type not in self._types:
+                self._types.add(topic.type)
+                self._base.execute(
+                    'INSERT INTO message_definitions VALUES (NULL, ?, ?, ?, ?)',
+                    (topic.type, 'ros2msg' if text else '', text, topic.type_description_hash),
+                )
+            self._numbers[topic.name] = len(self._numbers) + 1
+            self._base.execute(
+                'INSERT INTO topics VALUES (?, ?, ?, ?, ?, ?)',
+                (
+                    self._numbers[topic.name],
+                    topic.name,
+                    topic.type,
+                    topic.serialization_format,
+                    qos_text.to_text(topic.offered_qos_profiles),
+                    topic.type_description_hash,
+                ),
+            )
+
+    def write(self, message: BagMessage) -> None:
+        """Write a message; that it was sent at another time than received, no column has."""
+        with self._faults():
+            self._base.execute(
+                'INSERT INTO messages VALUES (NULL, ?, ?, ?)',
+                (self._numbers[message.topic], message.log_time, message.data),
+            )
+        self._counts[message.topic] = self._counts.get(message.topic, 0) + 1
+        self.information.include(message.log_time)
+        self._written += len(message.data)
+        self._waiting += len(message.data)
+        if self._waiting >= _AT_ONCE:
+            self.flush()
+
+    def flush(self) -> None:
+        """Have all that was written in the file."""
+        self._waiting = 0
+        with self._faults():
+            self._base.execute('COMMIT')
+            self._base.execute('BEGIN')
+
+    def close(self, whole: BagMetadata) -> None:
+        """Complete the file, which also has the metadata of itself alone: it plays alone."""
+        text = metadata.to_text(whole.of_file(self.information, self._counts))
+        try:
+            with self._faults():
+                self._base.execute('INSERT INTO metadata VALUES (NULL, ?, ?)', (_VERSION, text))
+                self._base.execute('COMMIT')
+        finally:
+            self._base.close()
 
 
 def _text(value: Any) -> str:

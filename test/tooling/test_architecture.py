@@ -39,10 +39,10 @@ FEW_LINES = 80
 # clouds in part or whole, errors while nobody looks, what is recorded of it),
 # and what commands of launch files print when their time has come. Of helpers: a listener that
 # gives no answer. diagnostic_updater and rosbag2_py have many names, four of them also the bag's:
-# those of the originals.
+# those of the originals. Bags are also written as files of SQLite.
 BUDGETS = {
     'modules': 834,
-    'code lines': 95_877,
+    'code lines': 95_984,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,

@@ -20,9 +20,9 @@ _PLUGINS = {
         ),
         (
             'sqlite3',
-            'files of SQLite, read only: `ros2 bag convert` makes MCAP files of them',
+            'files of SQLite, read and written',
             'amr_description.bag.sqlite_file.SqliteFile',
-            'rosbag2_storage::storage_interfaces::ReadOnlyInterface',
+            'rosbag2_storage::storage_interfaces::ReadWriteInterface',
         ),
     ),
     'converter': (),

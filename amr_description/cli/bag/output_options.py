@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from amr_description.bag import yaml_text
-from amr_description.bag.mcap_writer import PRESETS, WriterOptions
+from amr_description.bag.mcap_writer import ENDS, PRESETS, WriterOptions
 from amr_description.bag.rewriting import RewrittenBag
 from amr_description.bag.storage import TopicMetadata
 from amr_description.bag.topic_filter import TopicFilter
@@ -79,9 +79,11 @@ def _output(bag: Any, what: str) -> RewrittenBag:
     if not values['uri']:
         raise BagError(f'{what}: uri is missing: the folder of the bag')
     for name in ('storage_id', 'rmw_serialization_format', 'compression_format'):
-        known = {'storage_id': 'mcap', 'compression_format': 'zstd'}.get(name, 'cdr')
-        if values[name] not in ('', known):
-            raise BagError(f'{what}: {name}: {known} is written, not {quote(values[name])}')
+        known = {'storage_id': [*ENDS], 'compression_format': ['zstd']}.get(name, ['cdr'])
+        if values[name] not in ('', *known):
+            raise BagError(
+                f'{what}: {name}: {" or ".join(known)} is written, not {quote(values[name])}'
+            )
     mode = values['compression_mode'].lower()
     if mode not in ('', 'none', 'file'):
         raise BagError(
@@ -101,6 +103,7 @@ def _output(bag: Any, what: str) -> RewrittenBag:
         start=values['start_time_ns'] if values['start_time_ns'] >= 0 else None,
         end=values['end_time_ns'] if values['end_time_ns'] >= 0 else None,
         writer=WriterOptions(
+            storage=values['storage_id'] or 'mcap',
             preset=preset,
             max_bag_size=values['max_bagfile_size'],
             max_bag_duration=values['max_bagfile_duration'] * 10**9,

@@ -82,15 +82,16 @@ def _objection_to_storage(args: Namespace) -> str | None:
         return 'Invalid choice: Cannot specify compression format without a compression mode.'
     if args.compression_queue_size < 0:
         return 'Compression queue size must be at least 0.'
-    if args.storage == 'sqlite3':
+    if args.storage == 'sqlite3' and args.storage_preset_profile not in ('', 'none'):
         return (
-            'sqlite3 is read here, and not written: record with --storage mcap, which all of '
-            'Jazzy reads'
+            f'storage sqlite3 has no --storage-preset-profile {args.storage_preset_profile}: '
+            'it is one of mcap'
         )
     if args.compression_mode == 'message':
         return (
-            'storage mcap does not take --compression-mode message: messages in chunks are '
-            'compressed by --storage-preset-profile zstd_fast, files by --compression-mode file'
+            f'storage {args.storage} does not take --compression-mode message: messages in '
+            'chunks are compressed by --storage-preset-profile zstd_fast, files by '
+            '--compression-mode file'
         )
     if args.snapshot_mode and args.max_cache_size <= 0:
         return 'in snapshot mode messages are held in memory: --max-cache-size must not be 0'

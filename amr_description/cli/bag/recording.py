@@ -53,6 +53,7 @@ def writer_options(args: Namespace) -> WriterOptions:
     """Return how the bag is written. Raises BagError."""
     config = args.storage_config_file
     return WriterOptions(
+        storage=args.storage,
         preset=args.storage_preset_profile,
         settings=mcap_options.settings_from_text(config.read(), config.name) if config else {},
         max_bag_size=args.max_bag_size,

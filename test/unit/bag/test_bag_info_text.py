@@ -287,8 +287,8 @@ def parsed(line) -> Namespace:
         ('-a --compression-format zstd', 'Invalid choice: Cannot specify compression format '
          'without a compression mode.'),
         ('-a --compression-queue-size -1', 'Compression queue size must be at least 0.'),
-        ('-a -s sqlite3', 'sqlite3 is read here, and not written: record with --storage mcap, '
-         'which all of Jazzy reads'),
+        ('-a -s sqlite3 --storage-preset-profile zstd_fast', 'storage sqlite3 has no '
+         '--storage-preset-profile zstd_fast: it is one of mcap'),
         ('-a --max-bag-size -1', '--max-bag-size must not be negative'),
         ('-a --custom-data a', "--custom-data: want KEY=VALUE, not 'a'"),
     ],

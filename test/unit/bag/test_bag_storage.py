@@ -484,3 +484,33 @@ def test_overrides_have_only_what_differs():
     assert qos_text.overrides_from_text(text, 'x') == {
         '/a': QosProfile(reliability='best_effort', deadline=SECOND + 5)
     }
+
+
+def test_sqlite_files_are_written_as_they_are_read(tmp_path):
+    sent = messages(40, padding=1000)
+    folder = write(tmp_path / 'bag', sent, storage='sqlite3', max_bag_size=20_000)
+    assert sorted(path.name for path in folder.iterdir())[:2] == ['bag_0.db3', 'bag_1.db3']
+    with BagReader(folder) as reader:
+        assert (reader.storage, reader.is_rebuilt) == ('sqlite3', False)
+        assert reader.topics == {'/chatter': CHATTER, '/scan': SCAN}
+        assert 'string data' in reader.schemas['std_msgs/msg/String']
+        found = [*reader.messages()]
+    assert [each[:3] for each in found] == [each[:3] for each in sent]
+    assert {each.publish_time - each.log_time for each in found} == {0}, (
+        'there is no column for it'
+    )
+    with BagReader(folder / 'bag_1.db3') as alone:  # which says itself what it has
+        assert alone.metadata.message_count == len([*alone.messages()]) < 40
+
+
+def test_what_is_flushed_into_sqlite_is_there_when_the_writer_is_killed(tmp_path):
+    writer = BagWriter(tmp_path / 'bag', WriterOptions(storage='sqlite3'))
+    writer.add_topic(CHATTER)
+    sent = messages(3)
+    writer.write(sent[0])
+    writer.flush()
+    writer.write(sent[1])
+    with BagReader(tmp_path / 'bag') as reader:
+        assert reader.is_rebuilt
+        assert [each.data for each in reader.messages()] == [sent[0].data]
+    writer.close()

@@ -230,7 +230,7 @@ def test_bags_of_sqlite_become_mcap():
         ('output_bags: [{uri: a}]', 'no topic is asked for: say all_topics: true'),
         ('output_bags: [{uri: a, al_topics: true}]', '"al_topics"; did you mean "?all_topics'),
         ('output_bags: [{uri: a, all: 1}]', 'all: want a bool, not 1'),
-        ('output_bags: [{uri: a, storage_id: sqlite3}]', 'mcap is written, not "sqlite3"'),
+        ('output_bags: [{uri: a, storage_id: db3}]', 'mcap or sqlite3 is written, not "db3"'),
         ('output_bags: [{uri: a, compression_mode: message}]', 'want none or file'),
         ('output_bags: [{uri: a, storage_preset_profile: x}]', 'want one of none, fastwrite'),
         ('output_bags: [{uri: a, regex: "("}]', '--regex .* is not a regular expression'),
