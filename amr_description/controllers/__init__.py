@@ -107,6 +107,9 @@ CONTROLLERS = Registry(
         'parallel_gripper_action_controller/GripperActionController': (
             'amr_description.controllers.gripper_action_controller:ParallelGripperActionController'
         ),
+        'passthrough_controller/PassthroughController': (
+            'amr_description.controllers.forward_command_controller:PassthroughController'
+        ),
         'pid_controller/PidController': 'amr_description.controllers.pid_controller:PidController',
         'pose_broadcaster/PoseBroadcaster': (
             'amr_description.controllers.broadcasters.sensor_broadcasters:PoseBroadcaster'

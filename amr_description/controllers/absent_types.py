@@ -18,9 +18,6 @@ ABSENT: dict[str, str] = {
     'vda5050_safety_state_broadcaster/VDA5050SafetyStateBroadcaster': (
         'state_interfaces_broadcaster/StateInterfacesBroadcaster publishes its states'
     ),
-    'passthrough_controller/PassthroughController': (
-        'forward_command_controller/ForwardCommandController passes on what it is told'
-    ),
     'ros2_control_demo_example_7/RobotController': _JOINTS,
     'cartesian_compliance_controller/CartesianComplianceController': _JOINTS,
     'cartesian_force_controller/CartesianForceController': _JOINTS,

@@ -11,6 +11,10 @@ until the next message; nothing is written before the first.
 position_controllers/JointGroupPositionController, velocity_controllers/… and effort_controllers/…
 are a ForwardCommandController of one given interface: ``joints`` is their only parameter.
 
+``PassthroughController``, of the demos of ros2_control, commands the interfaces that it names, be
+they of several joints or of other controllers, and offers a reference for each: chains are made of
+it. A reference that nobody has commanded yet leaves its interface alone.
+
 Differences from forward_command_controller 4.x:
 
 - a command of the wrong size is logged and dropped; it does not end the controller;
@@ -36,6 +40,7 @@ from amr_description.control.interfaces import (
     VELOCITY,
 )
 from amr_description.control.samples import CommandsSample
+from amr_description.controllers.drives.command_reception import ignore_commands
 from amr_description.errors import ControllerError
 from amr_description.log import Severity
 from amr_description.parameters import parameter
@@ -58,6 +63,13 @@ class MultiInterfaceParameters:
 
     joint: str = parameter('', 'Name of the joint to control')
     interface_names: tuple[str, ...] = parameter((), 'Names of the interfaces to command')
+
+
+@dataclass(frozen=True)
+class _PassthroughParameters:
+    """The table of passthrough_controller/PassthroughController."""
+
+    interfaces: tuple[str, ...] = parameter((), 'Names of the interfaces to command')
 
 
 class ForwardControllersBase(Controller):
@@ -216,3 +228,45 @@ class JointGroupEffortController(ForwardCommandController):
     """Commands efforts, N·m or N."""
 
     parameters_type = EffortGroupParameters
+
+
+class PassthroughController(ForwardControllersBase):
+    """Any interfaces, each from a reference."""
+
+    parameters_type = _PassthroughParameters
+    is_chainable = True
+
+    def configure(self, parameters: _PassthroughParameters) -> None:
+        """Take over the names, and make a reference of each."""
+        super().configure(parameters)
+        me = self.context.name
+        self._references = tuple(CommandInterface(me, each) for each in parameters.interfaces)
+
+    def interface_names(self, parameters: _PassthroughParameters) -> tuple[str, ...]:
+        """Return interfaces."""
+        if not parameters.interfaces:
+            raise ControllerError("'interfaces' parameter is empty")
+        return parameters.interfaces
+
+    def references(self) -> tuple[CommandInterface, ...]:
+        """Return ``<controller>/<interface>`` of each, in the order of a command."""
+        return self._references
+
+    def update(self, time: int, period: int) -> None:
+        """Write the references; unless chained, they are those of the latest valid command."""
+        if self.is_chained:
+            ignore_commands(self.inputs(), self.log)
+        for sample in self._commands.drain():
+            if self._is_valid(sample.values):
+                self._refer(sample.values)
+        for reference, handle in zip(self._references, self._handles, strict=True):
+            if not math.isnan(reference.value):
+                handle.value = reference.value
+
+    def _forget_command(self) -> None:
+        super()._forget_command()
+        self._refer([_NO_COMMAND] * len(self._references))
+
+    def _refer(self, values: Sequence[float]) -> None:
+        for reference, value in zip(self._references, values, strict=True):
+            reference.value = value

@@ -40,14 +40,15 @@ FEW_LINES = 80
 # and what commands of launch files print when their time has come. Of helpers: a listener that
 # gives no answer. diagnostic_updater and rosbag2_py have many names, four of them also the bag's:
 # those of the originals. Bags are also written as files of SQLite.
+# Vendors' files name passthrough controllers.
 BUDGETS = {
     'modules': 834,
-    'code lines': 95_984,
+    'code lines': 96_016,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_396,
+    'code lines of helpers in test files': 26_414,
 }
 
 BASE = {

@@ -109,7 +109,8 @@ class Mover:
         self._controller = controller
         self._joints = joints
         self._states = states
-        pairs = [each.rsplit('/', 1) for each in controller.claimed]
+        # Of a reference of another controller, too: arm/joint1/position.
+        pairs = [each.split('/')[-2:] for each in controller.claimed]
         self._names = list(dict.fromkeys(joint for joint, _ in pairs))
         self._interfaces = {interface for _, interface in pairs}
 

@@ -32,6 +32,48 @@ ARM = (
     '<joint_name>spinner</joint_name><topic>speed</topic></plugin></gazebo></robot>'
 )
 
+# What the demos of ros2_control have as a chain: trajectories, all joints, one joint each.
+CHAIN = """
+controller_manager:
+  ros__parameters:
+    joint_state_broadcaster: {type: joint_state_broadcaster/JointStateBroadcaster}
+    shoulder_controller: {type: passthrough_controller/PassthroughController}
+    elbow_controller: {type: passthrough_controller/PassthroughController}
+    both: {type: passthrough_controller/PassthroughController}
+    trajectories: {type: joint_trajectory_controller/JointTrajectoryController}
+shoulder_controller: {ros__parameters: {interfaces: [shoulder/position]}}
+elbow_controller: {ros__parameters: {interfaces: [elbow/position]}}
+both:
+  ros__parameters:
+    interfaces: [shoulder_controller/shoulder/position, elbow_controller/elbow/position]
+trajectories:
+  ros__parameters:
+    joints: [shoulder, elbow]
+    command_joints: [both/shoulder_controller/shoulder, both/elbow_controller/elbow]
+    command_interfaces: [position]
+    state_interfaces: [position]
+"""
+
+
+def test_joints_behind_a_chain_of_passthrough_controllers_follow_a_trajectory(tmp_path):
+    file, report = tmp_path / 'arm.urdf', tmp_path / 'report.json'
+    joints = ''.join(
+        f'<joint name="{each}"><command_interface name="position"/>'
+        '<state_interface name="position"/></joint>'
+        for each in _JOINTS[:2]
+    )
+    block = f'<ros2_control name="arm" type="system"><hardware/>{joints}</ros2_control>'
+    file.write_text(f'{ARM.partition("<gazebo>")[0]}{block}</robot>')
+    file.with_suffix('.yaml').write_text(CHAIN)
+    module = 'amr_description.testing.trial'
+    with Program(sys.executable, '-m', module, str(file), '--json', str(report)) as program:
+        assert program.end() == 0, program.output
+    (arm,) = json.loads(report.read_text())
+    assert [each['state'] for each in arm['controllers']] == ['active'] * 5
+    (motion,) = arm['motions']
+    assert (motion['controller'], motion['what']) == ('trajectories', 'trajectory')
+    assert '1 moved as told' in program.output
+
 
 def test_an_arm_of_plugins_is_moved_by_their_topics(tmp_path):
     file, report = tmp_path / 'arm.urdf', tmp_path / 'report.json'

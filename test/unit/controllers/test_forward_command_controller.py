@@ -28,6 +28,7 @@ from amr_description.log import Severity
 from amr_description.parameters import build
 
 FORWARD = 'forward_command_controller/ForwardCommandController'
+PASS = 'passthrough_controller/PassthroughController'
 MULTI = 'forward_command_controller/MultiInterfaceForwardCommandController'
 GROUPS = {
     'position_controllers/JointGroupPositionController': 'position',
@@ -241,5 +242,53 @@ def test_it_can_stand_before_a_diff_drive_controller():
     manager.tick(10 * MS)
     assert list(hardware.written.values()) == pytest.approx([0.5 / 0.1] * 4)
     manager.switch([], ['drive', 'forward'], Strictness.STRICT, 20 * MS)
+    manager.tick(20 * MS)
+    assert list(hardware.written.values()) == [0.0] * 4
+
+
+def test_a_passthrough_controller_commands_the_interfaces_that_it_names():
+    bench = Bench(PASS, interfaces=['joint1/position', 'drive/linear/velocity'])
+    assert bench.update() == pytest.approx([math.nan] * 2, nan_ok=True)
+    assert bench.command(1.0, 2.0) == [1.0, 2.0]
+    assert bench.command(3.0) == [1.0, 2.0]
+    references = bench.controller.references()
+    assert [each.name for each in references] == [
+        'it/joint1/position',
+        'it/drive/linear/velocity',
+    ]
+    bench.controller.deactivate(0)
+    assert [each.value for each in bench.commands] == pytest.approx([math.nan, 0.0], nan_ok=True)
+    assert [each.value for each in references] == pytest.approx([math.nan] * 2, nan_ok=True)
+    with pytest.raises(ControllerError, match="'interfaces' parameter is empty"):
+        Bench(PASS, interfaces=[])
+
+
+def test_in_a_chain_a_passthrough_controller_passes_on_what_the_preceding_one_commands():
+    """The chain of the demos: one for each joint, one for these, one before that."""
+    hardware = FakeHardware()
+    manager = make_manager(hardware)
+    found = CONTROLLERS.find(PASS)
+    logs = {}
+
+    def configure(name, interfaces):
+        logs[name] = FakeLog()
+        manager.load(found(ControllerContext(name, logs[name])), PASS)
+        return manager.configure(name, build(found.parameters_type, {'interfaces': interfaces}))
+
+    for index, wheel in enumerate(WHEELS):
+        configure(f'joint{index}', [f'{wheel}/velocity'])
+    below = [f'joint{index}/{wheel}/velocity' for index, wheel in enumerate(WHEELS)]
+    second = configure('second', below)
+    third = configure('third', [f'second/{each}' for each in below])
+    names = ['joint0', 'joint1', 'joint2', 'joint3', 'second', 'third']
+    manager.switch(names, [], Strictness.STRICT, 0)
+    assert third.inputs()[0].put(CommandsSample((1.0, 2.0, 3.0, 4.0)))
+    assert second.inputs()[0].put(CommandsSample((9.0, 9.0, 9.0, 9.0)))
+    manager.tick(10 * MS)
+    assert list(hardware.written.values()) == [1.0, 2.0, 3.0, 4.0]
+    assert logs['second'].texts(Severity.WARN) == [
+        "Ignoring commands on '~/commands': in chained mode the preceding controller commands"
+    ]
+    manager.switch([], names, Strictness.STRICT, 20 * MS)
     manager.tick(20 * MS)
     assert list(hardware.written.values()) == [0.0] * 4
