@@ -231,12 +231,13 @@ def group(prefix: str, table: Callable[[], Any]) -> Any:
 
 def keyed_group(prefix: str, keys: str, table: Callable[[], Any]) -> Any:
     """
-    Make a field, a mapping, that holds another table for each element of a list parameter, or for
-    a name.
+    Make a field, a mapping, that holds another table for each element of a list parameter, for
+    a name, or for each name that is given.
 
     Args:
         prefix: in front of the elements, ``gains`` for ``gains.<element>.p``; '': nothing.
-        keys: the field of the list, or of the name, which stands above this one.
+        keys: the field of the list, or of the name, which stands above this one; '': there is
+            none, ``<prefix>.<element>.<parameter>`` alone tells the elements.
         table: the dataclass of one element.
     """
     return dataclasses.field(default_factory=dict, metadata={_KEY: _Keys(prefix, keys, table)})
@@ -333,16 +334,20 @@ class _KeyedGroup:
     table: Any
     prefix: str
     keys: str
-    """The full name of the list parameter."""
+    """The full name of the list parameter; '': of none."""
 
     def groups(self, values: Mapping[str, Any]) -> dict[str, _Group]:
         """Return the group of each element."""
-        keys = values.get(self.keys, ())
+        keys = values.get(self.keys, ()) if self.keys else self._given(values)
         if isinstance(keys, str):
             keys = [keys] if keys else []
         if not isinstance(keys, Sequence):
             return {}
         return {str(key): _Group(self.table, f'{self.prefix}{key}.') for key in keys}
+
+    def _given(self, values: Mapping[str, Any]) -> list[str]:
+        below = [name[len(self.prefix) :] for name in values if name.startswith(self.prefix)]
+        return list(dict.fromkeys(name.partition('.')[0] for name in below if '.' in name))
 
 
 @dataclass(frozen=True, slots=True)
@@ -387,7 +392,8 @@ def _rows(table: type, prefix: str) -> tuple[tuple[str, _Row], ...]:
             rows.append((field.name, _NumberedGroup(row.table, prefix + row.prefix)))
         elif isinstance(row, _Keys):
             inner = f'{prefix}{row.prefix}.' if row.prefix else prefix
-            rows.append((field.name, _KeyedGroup(row.table, inner, prefix + row.keys)))
+            keys = prefix + row.keys if row.keys else ''
+            rows.append((field.name, _KeyedGroup(row.table, inner, keys)))
         elif kind in TYPE_NAMES:
             spec = Spec(prefix + field.name, TYPE_NAMES[kind], field.default, **row)
             rows.append((field.name, spec))

@@ -132,6 +132,9 @@ CONTROLLERS = Registry(
         'tricycle_steering_controller/TricycleSteeringController': (
             'amr_description.controllers.drives.steering_controllers:TricycleSteeringController'
         ),
+        'twist_mux_controller/TwistMuxController': (
+            'amr_description.controllers.drives.twist_mux_controller:TwistMuxController'
+        ),
         'velocity_controllers/JointGroupVelocityController': (
             'amr_description.controllers.forward_command_controller:JointGroupVelocityController'
         ),

@@ -44,6 +44,11 @@ def fill_twist(sample: TwistSample, message: Any) -> None:
     message.twist.angular.z = sample.angular
 
 
+def fill_text(sample: str, message: Any) -> None:
+    """Write a text."""
+    message.data = sample
+
+
 def fill_odometry(sample: OdometrySample, message: Any) -> None:
     """Write pose, twist and, the first time, frames and covariances."""
     if message.child_frame_id != sample.frames.child_frame_id:
@@ -206,6 +211,7 @@ WRITERS: dict[Key, Callable[[Any, Any], None]] = {
     (OdometrySample, 'tf2_msgs/msg/TFMessage'): fill_odometry_transform,
     (SteeringStateSample, 'control_msgs/msg/SteeringControllerStatus'): fill_steering_state,
     (TwistSample, 'geometry_msgs/msg/TwistStamped'): fill_twist,
+    (str, 'std_msgs/msg/String'): fill_text,
     **dof_writers.WRITERS,
     **sensor_writers.WRITERS,
     **trajectory_writers.WRITERS,

@@ -31,6 +31,9 @@ VELOCITY_TOPICS = {
 }
 """The controllers that drive a robot, by their class, and the topics of their TwistStamped."""
 
+TWIST_MUX = 'TwistMuxController'
+"""The class that commands one of them, by topics of its parameters: then those drive."""
+
 _TYPE = '.type'
 
 
@@ -56,6 +59,18 @@ class DeclaredController:
     def class_name(self) -> str:
         """The class in its type."""
         return class_of(self.type)
+
+    @property
+    def velocity_topic(self) -> str:
+        """The topic of TwistStamped that drives, as its node names it; '': it does not drive."""
+        if self.class_name != TWIST_MUX:
+            return VELOCITY_TOPICS.get(self.class_name, '')
+        group, given = 'cmd_vel_inputs.', self.parameters
+        inputs = sorted({name.split('.')[1] for name in given if name.startswith(group)})
+        if not inputs:
+            return ''
+        highest = max(inputs, key=lambda name: int(given.get(f'{group}{name}.priority', 0)))
+        return str(given.get(f'{group}{highest}.topic', f'{highest}/cmd_vel'))
 
 
 def class_of(controller_type: str) -> str:

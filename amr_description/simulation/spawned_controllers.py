@@ -6,13 +6,14 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 import warnings
 
-from amr_description.controller_manager.spawner import Manager, Spawner
+from amr_description.controller_manager.spawner import ControllerState, Manager, Spawner
 from amr_description.controller_manager.spawner_arguments import parse
 from amr_description.log import Log
 from amr_description.model.controller_files import (
     class_of,
     DeclaredController,
     spawner_words,
+    TWIST_MUX,
     VELOCITY_TOPICS,
 )
 from amr_description.model.gazebo.builder import GazeboTranslation
@@ -31,11 +32,11 @@ class Topics:
     """Topics of the active controllers, after remapping; empty: there is none."""
 
     command: str = ''
-    """geometry_msgs/msg/TwistStamped, of the first controller that drives."""
+    """geometry_msgs/msg/TwistStamped, of the first controller that drives, or of its mux."""
     is_stamped: bool = True
     """Whether it is; Twist without a stamp drives a plugin of Gazebo."""
     odometry: str = ''
-    """nav_msgs/msg/Odometry, of the same controller."""
+    """nav_msgs/msg/Odometry, of that which drives."""
     joints: str = ''
     """sensor_msgs/msg/JointState."""
 
@@ -89,16 +90,26 @@ def topics_of(
         plugins: What stands for the plugins of Gazebo in its description.
         namespace: Of the manager, absolute.
     """
-    listed = manager.controllers().values()
-    active = [(each.type, each.name) for each in listed if each.state == 'active']
-    drive = next((name for kind, name in active if _drives(kind)), None)
-    broadcaster = next((name for kind, name in active if kind.endswith(BROADCASTER)), None)
+    active = [each for each in manager.controllers().values() if each.state == 'active']
+    drive = next((each.name for each in active if _drives(each.type)), None)
+    broadcaster = next((each.name for each in active if each.type.endswith(BROADCASTER)), None)
     topics = Topics(
-        command=subscribed(drive, _STAMPED_TWIST) if drive else '',
+        command=subscribed(_mux_of(drive, active) or drive, _STAMPED_TWIST) if drive else '',
         odometry=published(drive, _ODOMETRY) if drive else '',
         joints=published(broadcaster, _JOINT_STATE) if broadcaster else '',
     )
-    return _with_plugins(topics, plugins, [name for _, name in active], namespace)
+    return _with_plugins(topics, plugins, [each.name for each in active], namespace)
+
+
+def _mux_of(drive: str, active: Sequence[ControllerState]) -> str:
+    """Return the controller that chooses the commands of a drive; '': its own topic counts."""
+    muxes = (each for each in active if class_of(each.type) == TWIST_MUX)
+    commanding = (
+        each.name
+        for each in muxes
+        if any(name.startswith(f'{drive}/') for name in each.claimed_interfaces)
+    )
+    return next(commanding, '')
 
 
 def _drives(controller_type: str) -> bool:

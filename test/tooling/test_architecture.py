@@ -40,15 +40,16 @@ FEW_LINES = 80
 # and what commands of launch files print when their time has come. Of helpers: a listener that
 # gives no answer. diagnostic_updater and rosbag2_py have many names, four of them also the bag's:
 # those of the originals. Bags are also written as files of SQLite.
+# And a mux of velocity commands in the chain.
 # Vendors' files name passthrough controllers.
 BUDGETS = {
-    'modules': 834,
-    'code lines': 96_016,
+    'modules': 835,
+    'code lines': 96_195,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_414,
+    'code lines of helpers in test files': 26_438,
 }
 
 BASE = {

@@ -42,12 +42,11 @@ def velocity_topic(plan: SpawnPlan) -> VelocityTopic | None:
     """Return the topic that drives the robot; None: none of its controllers drives."""
     if plan.is_that_of_amr:
         return AMR_TOPIC
-    from amr_description.model.controller_files import VELOCITY_TOPICS
+    from amr_description.model.controller_files import TWIST_MUX
 
-    for each in plan.declared:
-        local = VELOCITY_TOPICS.get(each.class_name)
-        if local is not None:
-            return VelocityTopic(_topic(plan, each, local))
+    for each in sorted(plan.declared, key=lambda each: each.class_name != TWIST_MUX):
+        if each.velocity_topic:
+            return VelocityTopic(_topic(plan, each, each.velocity_topic))
     return VelocityTopic(plan.plugin_twist, is_stamped=False) if plan.plugin_twist else None
 
 

@@ -15,5 +15,6 @@ Controllers that drive a robot on wheels: a twist → wheels; wheel states → o
 ``steering_controllers.py``        driven and steered wheels
 ``steering_kinematics.py``         … bicycle, tricycle, Ackermann steering
 ``tricycle_controller.py``         one wheel that is driven and steered
+``twist_mux_controller.py``        before a drive: which of several commands it gets
 ================================== ================================================================
 """

@@ -93,13 +93,17 @@ class CommandReception:
             return
         self._stamp, self._twist = stamp, twist
 
+    def age(self, time: int) -> int:
+        """Return how old the command in force is at ``time``, ns; without one, since when."""
+        return time - self._stamp
+
     def in_force(self, time: int) -> Twist | None:
         """
         Return the twist (m/s, rad/s) to drive at ``time``: the latest command, or zero once it has
         timed out. None: no command since :meth:`forget`, or an invalid one.
         """
         self._jumps.observe(time)
-        if self._timeout and time - self._stamp > self._timeout:
+        if self._timeout and self.age(time) > self._timeout:
             if self._is_driving:
                 self._log(Severity.WARN, 'Velocity command timed out. Braking.', throttle=1.0)
             self._is_driving = False

@@ -9,6 +9,7 @@ near the speed that it is asked for, be it by its odometry or in truth (odometry
 command), is asked for 80 % of what it reaches.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 from typing import Any, TypeAlias
@@ -72,14 +73,28 @@ def travel(start: Motion, end: Motion) -> Displacement:
 class DriveTrial:
     """What is driven: a topic of an active controller, with its type, and its odometry."""
 
-    def __init__(self, sim: Simulation, controller: Active, wheelbase: float = 0.0) -> None:
+    def __init__(
+        self,
+        sim: Simulation,
+        controller: Active,
+        active: Sequence[Active] = (),
+        wheelbase: float = 0.0,
+    ) -> None:
         """
-        Find the topics. Raises LookupError: the controller subscribes to no Twist.
+        Find the topics.
 
-        ``wheelbase``: m, of a car that takes angular.z as the angle of its tyres; 0: as a turn.
+        Args:
+            sim: The simulation.
+            controller: Whose topic of commands it is.
+            active: All; what drives is among these if the controller commands its references.
+            wheelbase: m, of a car that takes angular.z as the angle of its tyres; 0: as a turn.
+
+        Raises:
+            LookupError: The controller subscribes to no Twist.
         """
+        commanded = {each.partition('/')[0] for each in controller.claimed}
+        self._drive = next((each for each in active if each.name in commanded), controller)
         self._sim = sim
-        self._controller = controller
         self._wheelbase = wheelbase
         node = sim.node
         found = topics_of(sim, node.get_subscriber_names_and_types_by_node, controller, _TYPES)
@@ -88,13 +103,13 @@ class DriveTrial:
         self.topic, kind = found[0]
         self._type = _TYPES[kind]
         published = node.get_publisher_names_and_types_by_node
-        topics = topics_of(sim, published, controller, (_ODOMETRY,))
+        topics = topics_of(sim, published, self._drive, (_ODOMETRY,))
         self._odometry = LatestMessage(node, Odometry, topics[0][0]) if topics else None
 
     @property
     def parts(self) -> dict[str, tuple[Command, float]]:
         """Return what is driven: command, and how far in m or rad."""
-        kind = self._controller.type
+        kind = self._drive.type
         sideways = any(word in kind for word in _SIDEWAYS)
         arc = any(word in kind for word in _STEERED) and not sideways
         turn = (_SPEED, 0.0, _SPEED / _RADIUS) if arc else (0.0, 0.0, _TURN)
@@ -161,7 +176,7 @@ class DriveTrial:
         self, what: str, far: float, truth: float | None, odometry: float | None, note: str
     ) -> MotionResult:
         is_fine = truth is not None and abs(truth - far) <= TOLERANCE * far
-        return MotionResult(self._controller.name, what, far, truth, odometry, is_fine, note)
+        return MotionResult(self._drive.name, what, far, truth, odometry, is_fine, note)
 
     def _start(self, command: Command, axis: int) -> float:
         """Command until the speed along an axis is steady; return its amount."""

@@ -226,7 +226,7 @@ class Trial:
         elif controller.claimed:  # others only publish
             try:
                 wheelbase = wheelbase_of(robot, controller.name)
-                with closing(DriveTrial(sim, controller, wheelbase)) as drive:
+                with closing(DriveTrial(sim, controller, active, wheelbase)) as drive:
                     self.found.motions += drive.try_all()
             except LookupError as error:
                 self.found.undriven.append(f'{error}')

@@ -193,6 +193,7 @@ class Keyed:
     dofs: tuple[str, ...] = parameter((), 'Degrees of freedom', unique=True)
     gains: Mapping[str, Gains] = keyed_group('gains', 'dofs', Gains)
     bare: Mapping[str, Inner] = keyed_group('', 'dofs', Inner)
+    inputs: Mapping[str, Inner] = keyed_group('inputs', '', Inner)
 
 
 def test_a_keyed_group_has_a_table_for_each_element_of_its_list():
@@ -206,11 +207,18 @@ def test_a_keyed_group_has_a_table_for_each_element_of_its_list():
     table = build(Keyed, given | {'left.mode': 'fast', 'gains.other.p': 'not mine'})
     assert table.gains == {'left': Gains(2.0), 'a/b': Gains(0.0, Inner(5.0))}
     assert table.bare == {'left': Inner(mode='fast'), 'a/b': Inner()}
+    assert table.inputs == {}
     assert build(Keyed, {}).gains == {}
     with pytest.raises(ParameterError, match=r"'gains\.left\.in\.rate' must be greater than 0"):
         build(Keyed, given | {'gains.left.in.rate': 0.0})
     with pytest.raises(ParameterError, match="'dofs' must not hold anything twice"):
         build(Keyed, {'dofs': ['left', 'left']})
+
+
+def test_a_keyed_group_without_a_list_has_a_table_for_each_name_that_is_given():
+    given = {'inputs.b.rate': 2.0, 'inputs.a.mode': 'fast', 'inputs.b.mode': 'slow', 'inputs': 1}
+    assert build(Keyed, given).inputs == {'b': Inner(2.0, 'slow'), 'a': Inner(mode='fast')}
+    assert 'inputs.a.rate' in [row.name for row in specs(Keyed, '', given)]
 
 
 @pytest.mark.parametrize(

@@ -283,6 +283,11 @@ def test_the_keys_drive_the_robot_by_its_own_topic(tmp_path):
         ),
         ('mecanum_drive_controller/MecanumDriveController', '', '/it/reference '),
         ('tricycle_controller/TricycleController', '', '/it/cmd_vel '),
+        (
+            'twist_mux_controller/TwistMuxController',
+            'cmd_vel_inputs: {a: {priority: 1}, b: {priority: 2, topic: manual/cmd_vel}}',
+            '/manual/cmd_vel ',
+        ),
     ],
 )
 def test_the_next_steps_name_the_topics_of_the_controllers(tmp_path, kind, parameters, expected):

@@ -261,6 +261,26 @@ def test_a_controller_of_the_user_needs_nothing_else(tmp_path):
             sim.drive(0.1, 0.0, seconds=1.0)
 
 
+def test_a_drive_behind_a_mux_is_driven_by_the_topic_of_the_highest_priority(tmp_path):
+    file = tmp_path / 'mux.yaml'
+    file.write_text("""
+/**/controller_manager:
+  ros__parameters:
+    mux: {type: twist_mux_controller/TwistMuxController}
+/**/mux:
+  ros__parameters:
+    cmd_vel_inputs: {manual: {priority: 2}, autonomous: {priority: 1}}
+    command_interface_linear_x: diff_drive_controller/linear/velocity
+    command_interface_angular_z: diff_drive_controller/angular/velocity
+""")
+    with Simulation(URDF, [ROOT / 'config' / 'controllers.yaml', file]) as sim:
+        assert sim.robot.command_topic == '/manual/cmd_vel'
+        sim.drive(0.2, 0.0, seconds=1.0)
+        assert sim.truth.x == pytest.approx(0.2, rel=0.1)
+        assert sim.robot.sample('/mux/source') == 'manual'
+        assert sim.odometry.x == pytest.approx(sim.truth.x, abs=0.01)
+
+
 @pytest.mark.parametrize(
     ('parameters', 'words'),
     [
