@@ -44,12 +44,12 @@ FEW_LINES = 80
 # Vendors' files name passthrough controllers.
 BUDGETS = {
     'modules': 835,
-    'code lines': 96_195,
+    'code lines': 96_206,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_438,
+    'code lines of helpers in test files': 26_442,
 }
 
 BASE = {

@@ -151,11 +151,15 @@ def _ackermann(builder: Builder, plugin: PluginElement) -> None:
 
 
 def _classic_ackermann(builder: Builder, plugin: PluginElement) -> None:
-    """Classic's car, which measures the model instead of being told its sizes."""
+    """Classic's car, which measures the model instead of being told its sizes; a vendor's, too."""
     robot = builder.robot
-    rear = [plugin.text(f'rear_{side}_joint') for side in ('right', 'left')]
-    front = [plugin.text(f'front_{side}_joint') for side in ('right', 'left')]
-    steering = [plugin.text(f'{side}_steering_joint') for side in ('right', 'left')]
+    is_of_vendor = plugin.kind != 'gazebo-ros-ackermann-drive'
+    sides = ('right', 'left')
+    rear = [plugin.text(f'rear_{side}_joint', f'{side}RearJoint') for side in sides]
+    front = [plugin.text(f'front_{side}_joint', f'{side}FrontJoint') for side in sides]
+    steering = [plugin.text(f'{side}_steering_joint', f'{side}HingeJoint') for side in sides]
+    if is_of_vendor and not any(steering):
+        steering = [_joint_above(robot, wheel) for wheel in front]
     lacking = [name for name in (*rear, *front, *steering) if not robot.has_joint(name)]
     if lacking:
         plugin.fail(f'there is no joint {quote_all(lacking)}')
@@ -164,6 +168,8 @@ def _classic_ackermann(builder: Builder, plugin: PluginElement) -> None:
     places = [poses[robot.joint(name).child].translation for name in (*rear, *front)]
     (x, right, _), (_, left, _), (ahead, front_right, _), (_, front_left, _) = places
     radii = [wheel.radius for wheel in find_wheels(robot, rear)]
+    if not radii and is_of_vendor:
+        radii = plugin.sizes('wheelDiameter', default=0.15, per=2.0)
     radii = radii or plugin.sizes('wheel_radius', default=0.0)
     if not radii:
         return
@@ -177,10 +183,16 @@ def _classic_ackermann(builder: Builder, plugin: PluginElement) -> None:
         return
     parameters = _car(rear, steering, sizes)
     parameters |= {
-        'angular_is_steering': True,
+        'angular_is_steering': not is_of_vendor,
         'max_steer': plugin.number('max_steer', default=0.6),
     }
     _classic_drive(builder, plugin, parameters, _ACKERMANN, 'gazebo_ackermann_drive')
+
+
+def _joint_above(robot: Robot, name: str) -> str:
+    """Return the joint that the link of a wheel's joint hangs on, which steers it; '': none."""
+    parent = robot.joint(name).parent if robot.has_joint(name) else ''
+    return next((each.name for each in robot.joints if each.child == parent), '')
 
 
 def _unsteered(robot: Robot, wheels: list[str], steering: list[str]) -> str:
@@ -480,6 +492,8 @@ def _base(robot: Robot) -> str:
 DRIVES: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'ackermann-steering': _ackermann,
     'diff-drive': _diff_drive,
+    'gazebo-ros-ackerman': _classic_ackermann,
+    'gazebo-ros-ackerman-drive': _classic_ackermann,
     'gazebo-ros-ackermann-drive': _classic_ackermann,
     'gazebo-ros-diff-drive': _diff_drive,
     'gazebo-ros-skid-steer-drive': _diff_drive,

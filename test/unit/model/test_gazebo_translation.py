@@ -192,6 +192,30 @@ def test_a_car_of_classic_is_measured():
     assert car.parameters['traction_wheels_radius'] == 0.3
 
 
+@pytest.mark.parametrize('hinges', [True, False])
+@pytest.mark.parametrize(
+    'library', ['libgazebo_ros_ackerman.so', 'libgazebo_ros_ackerman_drive.so']
+)
+def test_a_car_of_a_vendor_is_told_a_turn_and_finds_what_steers_above_its_wheels(library, hinges):
+    corners = ('leftFront', 'rightFront', 'leftRear', 'rightRear')
+    inside = ''.join(
+        f'<{corner}Joint>{name}_joint</{corner}Joint>'
+        for corner, name in zip(corners, ('fl', 'fr', 'rl', 'rr'), strict=True)
+    )
+    if hinges:
+        inside += '<leftHingeJoint>sl_joint</leftHingeJoint>'
+        inside += '<rightHingeJoint>sr_joint</rightHingeJoint>'
+    inside += '<commandTopic>car/cmd_vel</commandTopic><wheelDiameter>0.6</wheelDiameter>'
+    car, truth, _ = four_wheels(plugin(library, 'car', inside)).controllers
+    assert car.type == 'amr_description/GazeboAckermannDrive'
+    assert car.parameters['traction_joints_names'] == ['rr_joint', 'rl_joint']
+    assert car.parameters['steering_joints_names'] == ['sr_joint', 'sl_joint']
+    assert not car.parameters['angular_is_steering']
+    assert car.parameters['traction_wheels_radius'] == 0.3
+    assert car.topics['~/cmd_vel'] == 'car/cmd_vel'
+    assert truth.topics['~/odom'] == 'odom'
+
+
 def test_names_of_ros_1():
     found = only(
         plugin(
