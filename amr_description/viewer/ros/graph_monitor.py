@@ -185,9 +185,10 @@ class GraphMonitor:
         self._timer = None
         self.introspection.close()
         self._node.destroy_subscription(self._diagnostics)
-        self._clock.destroy()
         self._transforms.destroy()
         self._connect(DiscoveredGraph())
+        # Last: who reads /tf by stamps and not /clock would be told to use simulated time.
+        self._clock.destroy()
 
     def _poll(self) -> None:
         """Compare the graph with what is connected."""
