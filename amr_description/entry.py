@@ -14,6 +14,7 @@ process can cover it by starting the program with SIGINT blocked, as the bring-u
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 import gc
 import importlib
 import os
@@ -103,6 +104,7 @@ def _imported(
     it 10 to 20 % of the CPU time of an import is saved (CPython 3.12).
     """
     use_one_blas_thread()
+    have_home()
     was_enabled = gc.isenabled()
     gc.disable()
     try:
@@ -123,6 +125,21 @@ def use_one_blas_thread() -> None:
     """
     if _BLAS_THREADS not in os.environ:
         os.putenv(_BLAS_THREADS, '1')
+
+
+def have_home() -> None:
+    """
+    Have ``HOME``, below which ROS writes its logs, where the environment lacks it.
+
+    So it is for cron, systemd, ``env -i`` and in some containers. rcl then ends every program with
+    eleven lines about its own errors.
+    """
+    if os.environ.get('HOME') or os.environ.get('ROS_LOG_DIR') or sys.platform == 'win32':
+        return
+    import pwd
+
+    with suppress(KeyError):  # a user without an entry
+        os.environ['HOME'] = pwd.getpwuid(os.getuid()).pw_dir
 
 
 _package = LazyEntryPoint(__package__)

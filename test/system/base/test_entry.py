@@ -4,6 +4,7 @@
 
 import gc
 import os
+import pwd
 import signal
 import subprocess
 import sys
@@ -116,3 +117,22 @@ def test_numpy_starts_no_threads_unless_the_user_wants_them(wished, threads):
         check=True,
     ).stdout
     assert said == f'threads {threads} variable {wished.get("OPENBLAS_NUM_THREADS")}\n'
+
+
+@pytest.mark.parametrize('given', [{}, {'HOME': ''}, {'HOME': '/else'}, {'ROS_LOG_DIR': '/logs'}])
+def test_a_program_without_a_home_has_that_of_its_user(given):
+    """As in cron, systemd, and ``env -i``: ROS writes its logs there."""
+    code = (
+        'import os; from amr_description.entry import run;'
+        'run(lambda: lambda: print(os.environ.get("HOME")))'
+    )
+    done = subprocess.run(
+        [sys.executable, '-c', code],
+        env={'PYTHONPATH': os.pathsep.join(sys.path), **given},
+        capture_output=True,
+        text=True,
+    )
+    expected = pwd.getpwuid(os.getuid()).pw_dir
+    if 'ROS_LOG_DIR' in given:
+        expected = 'None'
+    assert done.stdout.strip() == (given.get('HOME') or expected), done.stderr
