@@ -22,6 +22,8 @@ from itertools import dropwhile, takewhile
 from textwrap import dedent
 from typing import Any
 
+from amr_description.text import closest_match
+
 INSTEAD_OF_COMMANDS = {
     'ros2 component': 'components are C++ nodes, of which there are none here; start nodes with '
     '`ros2 run` and `ros2 launch`',
@@ -95,13 +97,18 @@ class LazyParser(argparse.ArgumentParser):
         return '--' not in args and not open_ended and alternatives.isdisjoint(words)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
-        """Say what to do instead of a verb that the original has."""
+        """Say what to do instead of a verb that the original has, or which one could be meant."""
         instead = None
         if isinstance(action, _SubParsersAction) and value not in action.choices:
             instead = INSTEAD_OF_COMMANDS.get(f'{self.prog} {value}')
         if instead:
             self.exit(2, f'{self.prog} {value} is not offered here: {instead}\n')
-        super()._check_value(action, value)
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            close = closest_match(str(value), [str(each) for each in action.choices or ()])
+            error.message += f"\ndid you mean '{close}'?" if close else ''
+            raise
 
     def read_table(self, table: Mapping[str, str]) -> None:
         """Parse a name of the table, and the following words with the parser of its module."""

@@ -77,7 +77,7 @@ def test_an_unknown_word_is_told_with_those_there_are():
     with pytest.raises(ArgumentError) as refused:
         ArgumentParser()._check_value(action, 'ecko')
     assert "invalid choice: 'ecko' (choose from " in refused.value.message
-    assert f'{refused.value.message}\n' in result.stderr
+    assert result.stderr.endswith(f"{refused.value.message}\ndid you mean 'echo'?\n")
 
 
 @pytest.mark.parametrize('command', INSTEAD_OF_COMMANDS)
