@@ -120,10 +120,11 @@ class SubscriptionThread:
         self._served.clear()
 
     def _leave(self) -> None:
-        self._is_ending = True
-        self._awake.set()
-        if self._waiter is not None:
-            self._waiter.wake()
+        if not self._is_ending:  # else the waiter may be gone
+            self._is_ending = True
+            self._awake.set()
+            if self._waiter is not None:
+                self._waiter.wake()
 
     def _run(self) -> None:
         assert self._waiter is not None, 'start() has made it'
