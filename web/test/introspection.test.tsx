@@ -236,6 +236,7 @@ test('the picture asks for what it shows alone', async () => {
   const panel = graphPanel(app);
   assert.deepEqual(panel.watches, ['topics']);
   assert.deepEqual(texts(panel, '.box text'), ['/odom', '50 Hz', '/drive', '/nav', '/page']);
+  assert.match(texts(panel, 'p.fine')[0] ?? '', /^1 of 4 nodes are not shown/);
   click(panel.element.querySelectorAll('.toggle')[1]);
   await drawn();
   assert.deepEqual(panel.watches, ['transforms']);

@@ -50,6 +50,8 @@ function Nodes({ store }: { store: Store }) {
     return <Empty>The node looks at the graph …</Empty>;
   }
   const { boxes, edges } = nodesPicture(topics, all.value, text.value.trim());
+  const isWhole = all.value || text.value.trim() !== '';
+  const hidden = isWhole ? 0 : topics.nodes.length - boxes.filter(({ kind }) => kind === 'node').length;
   const ends = edges.filter(({ from, to }) => from === chosen.value || to === chosen.value);
   const names = (of: string[]): string => of.map((id) => id.split(' ')[1]).join(', ') || 'none';
   return (
@@ -66,6 +68,7 @@ function Nodes({ store }: { store: Store }) {
         <span class="fine">all topics</span>
         <Switch on={all.value} label="Show all topics" onFlip={(on) => (all.value = on)} />
       </div>
+      <Hidden count={hidden} of={topics.nodes.length} />
       <Picture
         label="Nodes and topics"
         boxes={boxes}
@@ -85,6 +88,15 @@ function Nodes({ store }: { store: Store }) {
       )}
     </>
   );
+}
+
+function Hidden({ count, of }: { count: number; of: number }) {
+  return count > 0 ? (
+    <p class="fine">
+      {`${count} of ${of} nodes are not shown: they share no topic but those that nearly all have. `}
+      <b>all topics</b> shows them.
+    </p>
+  ) : null;
 }
 
 function Frames({ store }: { store: Store }) {
