@@ -44,7 +44,7 @@ FEW_LINES = 80
 # Vendors' files name passthrough controllers.
 BUDGETS = {
     'modules': 835,
-    'code lines': 96_220,
+    'code lines': 96_221,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
