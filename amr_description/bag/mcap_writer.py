@@ -14,10 +14,11 @@ from mcap.writer import Writer
 from amr_description.bag import compression, metadata, qos_text, schemas
 from amr_description.bag.mcap_options import DEFAULTS, PRESETS
 from amr_description.bag.metadata import BagMetadata, FileInformation, TopicInformation
-from amr_description.bag.reader import reindexed
+from amr_description.bag.reader import reindexed, STORAGES
 from amr_description.bag.sqlite_file import SqliteOutput
 from amr_description.bag.storage import BagMessage, TopicMetadata
 from amr_description.errors import BagError
+from amr_description.text import quote
 
 
 class OutputFile:
@@ -65,8 +66,6 @@ class OutputFile:
         self._file.close()
 
 
-ENDS = {'mcap': '.mcap', 'sqlite3': '.db3'}
-"""How the names of files end, by the storages that are written."""
 MINIMUM_SPLIT_SIZE = 1024
 """Bytes: rosbag2 splits at no smaller ones."""
 
@@ -89,6 +88,15 @@ class WriterOptions:
     custom_data: Mapping[str, str] = field(default_factory=dict)
     on_split: Callable[[Path, Path], None] | None = None
     """Called with the file that was closed and the one that was opened."""
+
+    def __post_init__(self) -> None:
+        """Raise BagError for what the storage does not have."""
+        presets = [*PRESETS] if self.storage == 'mcap' else ['none']
+        if self.preset not in presets:
+            what = f'storage_preset_profile of {self.storage}: want one of'
+            raise BagError(f'{what} {", ".join(presets)}, not {quote(self.preset)}')
+        if self.settings and self.storage != 'mcap':
+            raise BagError(f'storage {self.storage} has no setting {min(self.settings)}: mcap has')
 
 
 class BagWriter:
@@ -242,7 +250,7 @@ class BagWriter:
 
     def _open(self) -> '_McapFile | SqliteOutput':
         options = self.options
-        name = f'{self.folder.name}_{len(self.metadata.files)}{ENDS[options.storage]}'
+        name = f'{self.folder.name}_{len(self.metadata.files)}{STORAGES[options.storage][0]}'
         path = self.folder / name
         file: _McapFile | SqliteOutput
         if options.storage == 'mcap':

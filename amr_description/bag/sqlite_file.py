@@ -15,7 +15,7 @@ import sqlite3
 import tempfile
 from typing import Any
 
-from amr_description.bag import compression, metadata, qos_text
+from amr_description.bag import compression, metadata, qos_text, schemas
 from amr_description.bag.metadata import (
     BagMetadata,
     FileInformation,
@@ -183,7 +183,7 @@ class SqliteOutput:
     """One file of a bag that is written. Methods raise OSError."""
 
     def __init__(self, path: Path) -> None:
-        """Create the file, also if it is there."""
+        """Create the file. Raises OSError, also if there is such a bag."""
         self.information = FileInformation(path.name)
         self._counts: dict[str, int] = {}
         self._numbers: dict[str, int] = {}
@@ -213,9 +213,10 @@ class SqliteOutput:
         with self._faults():
             if topic.type not in self._types:
                 self._types.add(topic.type)
+                encoding = schemas.ENCODING if text else ''
                 self._base.execute(
                     'INSERT INTO message_definitions VALUES (NULL, ?, ?, ?, ?)',
-                    (topic.type, 'ros2msg' if text else '', text, topic.type_description_hash),
+                    (topic.type, encoding, text, topic.type_description_hash),
                 )
             self._numbers[topic.name] = len(self._numbers) + 1
             self._base.execute(

@@ -18,7 +18,7 @@ import re
 from rclpy.duration import Duration
 from rclpy.time import Time
 
-from amr_description.bag.mcap_writer import BagWriter, ENDS, WriterOptions
+from amr_description.bag.mcap_writer import BagWriter, WriterOptions
 from amr_description.bag.metadata import BagMetadata as _Metadata
 from amr_description.bag.reader import BagReader, STORAGES
 from amr_description.bag.storage import BagMessage, TopicMetadata as _Topic
@@ -257,16 +257,16 @@ class SequentialWriter:
         """Make a bag; its folder must not be there yet."""
         _require_cdr(converter_options)
         storage = storage_options.storage_id or 'mcap'
-        if storage not in ENDS:
-            raise RuntimeError(f"storage '{storage}' is not written; {' and '.join(ENDS)} are")
-        options = WriterOptions(
-            storage=storage,
-            preset=storage_options.storage_preset_profile or 'none',
-            max_bag_size=storage_options.max_bagfile_size,
-            max_bag_duration=storage_options.max_bagfile_duration * NANOSECONDS,
-            custom_data=storage_options.custom_data,
-        )
+        if storage not in STORAGES:
+            raise RuntimeError(f"storage '{storage}' is not written; {' and '.join(STORAGES)} are")
         try:
+            options = WriterOptions(
+                storage=storage,
+                preset=storage_options.storage_preset_profile or 'none',
+                max_bag_size=storage_options.max_bagfile_size,
+                max_bag_duration=storage_options.max_bagfile_duration * NANOSECONDS,
+                custom_data=storage_options.custom_data,
+            )
             self._bag = BagWriter(Path(storage_options.uri), options)
         except BagError as error:
             raise RuntimeError(str(error)) from error
@@ -341,7 +341,7 @@ def get_registered_readers() -> set[str]:
 
 def get_registered_writers() -> set[str]:
     """Return the storages that are written."""
-    return {*ENDS}
+    return {*STORAGES}
 
 
 def get_registered_serializers() -> set[str]:

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from amr_description.bag import yaml_text
-from amr_description.bag.mcap_writer import ENDS, PRESETS, WriterOptions
+from amr_description.bag.mcap_writer import WriterOptions
+from amr_description.bag.reader import STORAGES
 from amr_description.bag.rewriting import RewrittenBag
 from amr_description.bag.storage import TopicMetadata
 from amr_description.bag.topic_filter import TopicFilter
@@ -79,7 +80,7 @@ def _output(bag: Any, what: str) -> RewrittenBag:
     if not values['uri']:
         raise BagError(f'{what}: uri is missing: the folder of the bag')
     for name in ('storage_id', 'rmw_serialization_format', 'compression_format'):
-        known = {'storage_id': [*ENDS], 'compression_format': ['zstd']}.get(name, ['cdr'])
+        known = {'storage_id': [*STORAGES], 'compression_format': ['zstd']}.get(name, ['cdr'])
         if values[name] not in ('', *known):
             raise BagError(
                 f'{what}: {name}: {" or ".join(known)} is written, not {quote(values[name])}'
@@ -90,26 +91,23 @@ def _output(bag: Any, what: str) -> RewrittenBag:
             f'{what}: compression_mode: want none or file, not {quote(mode)}: MCAP has no '
             'messages that are compressed one by one; see storage_preset_profile: zstd_fast'
         )
-    preset = values['storage_preset_profile'] or 'none'
-    if preset not in PRESETS:
-        raise BagError(
-            f'{what}: storage_preset_profile: want one of {", ".join(PRESETS)}, not '
-            f'{quote(preset)}'
+    try:
+        writer = WriterOptions(
+            storage=values['storage_id'] or 'mcap',
+            preset=values['storage_preset_profile'] or 'none',
+            max_bag_size=values['max_bagfile_size'],
+            max_bag_duration=values['max_bagfile_duration'] * 10**9,
+            compress_files=mode == 'file',
+            custom_data={str(key): str(each) for key, each in values['custom_data'].items()},
         )
-    custom = {str(key): str(value) for key, value in values['custom_data'].items()}
+    except BagError as error:
+        raise BagError(f'{what}: {error}') from error
     return RewrittenBag(
         Path(values['uri']),
         holds=_selection(values, what),
         start=values['start_time_ns'] if values['start_time_ns'] >= 0 else None,
         end=values['end_time_ns'] if values['end_time_ns'] >= 0 else None,
-        writer=WriterOptions(
-            storage=values['storage_id'] or 'mcap',
-            preset=preset,
-            max_bag_size=values['max_bagfile_size'],
-            max_bag_duration=values['max_bagfile_duration'] * 10**9,
-            compress_files=mode == 'file',
-            custom_data=custom,
-        ),
+        writer=writer,
     )
 
 

@@ -20,6 +20,7 @@ from amr_description.cli.bag import recording
 from amr_description.cli.bag.record_arguments import add_recorder_arguments
 from amr_description.cli.bag.recording import _serve, recorder_options, writer_options
 from amr_description.cli.ros2 import main
+from amr_description.errors import BagError
 from amr_description.ros.signals import STOP_SIGNALS
 
 NODE = SimpleNamespace(get_name=lambda: 'recorder', get_namespace=lambda: '/')
@@ -107,6 +108,9 @@ def test_files(tmp_path):
     overrides = recorder_options(args, NODE).overrides
     assert overrides == {'/chatter': QosProfile(reliability='best_effort')}
     assert writer_options(args).settings == {'compression': CompressionType.LZ4}
+    args = parsed('-a', '-s', 'sqlite3', '--storage-config-file', tmp_path / 'mcap.yaml')
+    with pytest.raises(BagError, match='storage sqlite3 has no setting compression: mcap has'):
+        writer_options(args)
 
 
 class Looking:

@@ -96,6 +96,17 @@ def test_what_a_bag_is_made_of(bag, reader):
     assert {'mcap', 'sqlite3'} <= rosbag2_py.get_registered_readers()
 
 
+def test_a_preset_that_the_storage_does_not_have_is_told(tmp_path):
+    every = {'mcap': 'none, fastwrite, zstd_fast, zstd_small', 'sqlite3': 'none'}
+    for storage, known in every.items():
+        wanted = rosbag2_py.StorageOptions(
+            uri=str(tmp_path / 'bag'), storage_id=storage, storage_preset_profile='x'
+        )
+        with pytest.raises(RuntimeError, match=f'{storage}: want one of {known}, not "x"'):
+            rosbag2_py.SequentialWriter().open(wanted, rosbag2_py.ConverterOptions('cdr', 'cdr'))
+        assert not (tmp_path / 'bag').exists()
+
+
 def test_what_cannot_be_opened_says_why(tmp_path):
     reader = rosbag2_py.SequentialReader()
     with pytest.raises(RuntimeError, match='Bag is not open'):
