@@ -6,10 +6,9 @@ The command line of each node of a stack, with the parameter files that it names
 Everything that can be wrong with a node is found here, before the first process starts.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 import contextlib
 from dataclasses import dataclass
-from functools import partial
 import os
 from pathlib import Path
 import re
@@ -78,15 +77,6 @@ def _scalar(name: str, value: object) -> bool | int | float | str:
 
 
 @dataclass(frozen=True)
-class LateText:
-    """The text of a parameter file that is known only when the node starts."""
-
-    make: Callable[[], str]
-    text: str
-    """What it is made of."""
-
-
-@dataclass(frozen=True)
 class ProcessSpec:
     """The process that the orchestrator starts for one node."""
 
@@ -94,8 +84,8 @@ class ProcessSpec:
     name: str
     """``<executable>-<number in the stack, from 1>``, as on the screen."""
     executable: Path
-    parameter_files: Sequence[tuple[Path, 'str | LateText | None']]
-    """(path, text to write there before the start; None: it is a file of the user)."""
+    parameter_files: Sequence[tuple[Path, str | LateTable | None]]
+    """(path, what to write there before the start; None: it is a file of the user)."""
     launch_prefix: str = ''
     """Words before the command line, unless the node has a prefix of its own."""
 
@@ -169,8 +159,10 @@ class ProcessSpec:
             BringupError: a table that is known only now cannot be made.
         """
         for path, text in self.parameter_files:
+            if isinstance(text, LateTable):
+                text = _parameters_text(self.name, self.resolved, text.make())
             if text is not None:
-                path.write_text(text if isinstance(text, str) else text.make(), encoding='utf-8')
+                path.write_text(text, encoding='utf-8')
 
 
 @dataclass(frozen=True)
@@ -234,18 +226,14 @@ def _process_spec(
     node = resolved.node
     check_prefix(node.prefix)
     name = f'{node.executable}-{number}'
-    files: list[tuple[Path, str | LateText | None]] = []
+    files: list[tuple[Path, str | LateTable | None]] = []
     for index, entry in enumerate(resolved.parameters, start=1):
         if isinstance(entry, str | Path):
             files.append((path_of(str(entry)), None))
             continue
-        text: str | LateText
-        if isinstance(entry, ParameterText):
-            text = entry.text
-        elif isinstance(entry, LateTable):
-            text = LateText(partial(_late_text, name, resolved, entry), entry.text)
-        else:
-            text = _parameters_text(name, resolved, entry)
+        text = entry.text if isinstance(entry, ParameterText) else entry
+        if isinstance(text, Mapping):
+            text = _parameters_text(name, resolved, text)
         files.append((folder / f'{name}-parameters-{index}.yaml', text))
     executable = (
         executable_of(node.package, node.executable)
@@ -266,10 +254,6 @@ def _program(node: Node, environment: Mapping[str, str | None]) -> Path:
     if found is None:
         raise BringupError(f"there is no command '{word}' on the PATH")
     return Path(found)
-
-
-def _late_text(name: str, resolved: ResolvedNode, table: LateTable) -> str:
-    return _parameters_text(name, resolved, table.make())
 
 
 def _parameters_text(

@@ -52,7 +52,6 @@ class SubscriptionThread:
 
         Args:
             node: Has them. It may be in an executor, which leaves them alone; EventsExecutor
-            node: Has them. It may be in an executor, which leaves them alone; EventsExecutor
                 does so with those of a ``PollingNode`` only.
             on_failure: Called in the thread when callbacks raise again and again, after that was
                 logged; None: then the error is raised in the thread of the node's executor.
@@ -143,10 +142,10 @@ class SubscriptionThread:
             taken = take_with_info(subscription)
             if taken is not None:
                 has_come = True
-                self._awake.clear()
                 rest = self._call(subscription, callback, *taken)
                 if rest and not self._is_ending:
                     self._awake.wait(rest)
+                    self._awake.clear()
         return has_come
 
     def _call(

@@ -151,7 +151,7 @@ class GraphBackend(GraphObserver):
         self._session_count += 1
         self._session = self._session_count
         self._executor.create_task(self._set_session)
-        self.server.publish_now('', self._recorder.status)
+        self.server.publish_now('', self._recorder.status_now())
         self._refresher = asyncio.create_task(self._refresh_periodically())
 
     def close(self) -> None:

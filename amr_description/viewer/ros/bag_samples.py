@@ -52,6 +52,7 @@ class BagSamples:
         self._recorded = recorded
         self._sensors = {each.topic: each for each in recorded.graph.sensors}
         self._feeds: dict[_Key, _Feed] = {}
+        self._whole: AbstractSet[str] = frozenset()
 
     def watch(self, watched: Watched) -> None:
         """Make samples of these topics, as far as there are."""

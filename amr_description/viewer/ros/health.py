@@ -14,7 +14,6 @@ from functools import partial
 import math
 import re
 import time
-from typing import TypeAlias
 
 from rclpy.node import Node
 
@@ -44,9 +43,6 @@ _PROBES = {name: probe for name, probe in PROBES.items() if name != 'navigation'
 }
 
 
-Graph: TypeAlias = tuple[object, object] | None
-
-
 class Health:
     """Examines the graph again and again while pages watch it; on the ROS thread."""
 
@@ -54,12 +50,12 @@ class Health:
         """``node``: of the viewer; ``tell`` gets the findings of each examination."""
         self._node = node
         self._tell = tell
-        self._due = math.inf
-        """When the next examination begins, s of a monotonic clock."""
+        self._since = math.inf
+        """When pages began to watch, s of a monotonic clock."""
         self._is_shown = False
         self._began = 0.0
         self._looked = 0.0
-        self._graph: Graph = None
+        self._graph: object = None
         """Of the last examination."""
         self._doctor: Node | None = None
         self._examination: RosExamination | None = None
@@ -67,25 +63,25 @@ class Health:
         """Those of the last examination, while pages watch them; replaced as a whole."""
 
     def watch(self, *, is_shown: bool, is_watched: bool) -> None:
-        """Begin to examine, or cease: at once for who is shown all, else after a while."""
+        """Begin to examine, or cease: soon for who is shown all, else after a while."""
         self._is_shown = is_shown
-        if not (is_shown or is_watched):
+        if is_shown or is_watched:
+            self._since = min(self._since, time.monotonic())
+        else:
             self._end()
-            self._due, self.latest = math.inf, None
-            return
-        if self._examination is not None:
-            return
-        now = time.monotonic()
-        if self.latest is None:
-            self._due = min(self._due, now + (_DISCOVERY if is_shown else _SLOW_DISCOVERY))
-        elif is_shown:
-            self._due = min(self._due, self._began + _PERIOD)
-        elif now - self._looked >= _LOOK:
-            self._looked = now
-            is_other = self._graph != self._graph_now()
-            self._due = max(now, self._began + _SLOW_PERIOD) if is_other else math.inf
+            self._since, self.latest = math.inf, None
 
-    def _graph_now(self) -> Graph:
+    def _is_due(self, now: float) -> bool:
+        if self.latest is None:
+            return now >= self._since + (_DISCOVERY if self._is_shown else _SLOW_DISCOVERY)
+        if self._is_shown:
+            return now >= self._began + _PERIOD
+        if now < max(self._began + _SLOW_PERIOD, self._looked + _LOOK):
+            return False
+        self._looked = now
+        return self._graph != self._graph_now()
+
+    def _graph_now(self) -> object:
         """Return the nodes and topics that there are: most faults come with a new one."""
         node = self._node
         nodes = [each for each in node.get_node_names_and_namespaces() if each[0] != _NODE]
@@ -95,8 +91,8 @@ class Health:
         """Go on with the examination; a few times a second."""
         now = time.monotonic()
         if self._examination is None:
-            if now >= self._due:
-                self._began, self._due, self._graph = now, math.inf, self._graph_now()
+            if self._is_due(now):
+                self._began, self._graph = now, self._graph_now()
                 self._begin()
             return
         if self._examination.is_done or now - self._began >= WINDOW:

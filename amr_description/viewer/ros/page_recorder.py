@@ -61,6 +61,10 @@ class PageRecorder:
         self.status = replace(_NOTHING, folder=str(folder), free=_free(folder))
         """The last that was told; replaced as a whole."""
 
+    def status_now(self) -> BagWriting:
+        """Return the status with the room that is free now; from any thread."""
+        return replace(self.status, free=_free(self._folder))
+
     async def handle(self, request: BagRequest) -> str:
         """Begin to record, or end that; return what was done. Raises ViewerError."""
 
