@@ -18,7 +18,7 @@ from typing import NoReturn, Protocol
 
 from amr_description.errors import AmrError, ViewerError
 from amr_description.model.frames import Vector
-from amr_description.viewer.backend import Answer, Hold, Watched
+from amr_description.viewer.backend import Handlers, Hold, Watched
 from amr_description.viewer.bags import StartRecording, StopRecording
 from amr_description.viewer.description import DescribedRobot
 from amr_description.viewer.protocol import Channel, Graph, Notice, ServerMessage, World
@@ -45,6 +45,17 @@ _LONGEST_WAIT = 5.0
 IDLE = 'this page only watches now: it drives while the program is in sim.play()'
 _NEEDS_ROS = 'needs ROS, and this simulation has none; `bringup simulation` starts one over ROS'
 
+_SPAWNED = 'robots come and go by the program: sim.spawn, sim.remove'
+_RECORDED = 'the program records: sim.record, sim.end_recording'
+_BY_THE_PROGRAM: Mapping[type[Request], str] = {
+    Spawn: _SPAWNED,
+    Delete: _SPAWNED,
+    StartRecording: _RECORDED,
+    StopRecording: _RECORDED,
+    Place: 'a robot is put elsewhere by the program: sim.spawn with a pose',
+}
+"""What does it instead, of requests that are not carried out for pages."""
+
 
 class Controls(Protocol):
     """What pages can do to a simulation; all of it between two steps, and raises AmrError."""
@@ -70,6 +81,7 @@ class PageBackend:
     def __init__(self, controls: Controls) -> None:
         """Show nothing yet."""
         self._controls = controls
+        self.handlers = self._make_handlers()
         self.calls: SimpleQueue[Callable[[], None]] = SimpleQueue()
         """For the thread of the simulation; none of them raises."""
         self.watched = Watched()
@@ -146,10 +158,10 @@ class PageBackend:
             graph, world, described = self._graph, self._world, self._described
         if graph is None or world is None:
             return
-        self.server.publish_now('', graph)
-        self.server.publish_now(SIMULATOR, world)
+        self.server.pages.publish('', graph)
+        self.server.pages.publish(SIMULATOR, world)
         for name, each in described.items():
-            self.server.publish_now(name, each.message)
+            self.server.pages.publish(name, each.message)
 
     # --- what is shown ------------------------------------------------------------------------
 
@@ -215,26 +227,25 @@ class PageBackend:
     def hold_joints(self, robot: str | None) -> None:
         """Do nothing: no joint moves by what a page says."""
 
-    async def handle(self, request: Request, page: str) -> Answer:  # noqa: ARG002
-        """Carry out a request of a page. Raises ViewerError, or what the simulation raises."""
+    def _make_handlers(self) -> Handlers:
+        """Return what carries out requests; it may raise what the simulation raises."""
         controls = self._controls
-        match request:
-            case Play(type=kind):
-                return await self._ask(lambda: controls.play(paused=kind == 'pause'))
-            case Step(steps=steps):
-                return await self._ask(lambda: controls.step(steps))
-            case ResetSimulation():
-                return await self._ask(controls.reset)
-            case SetFactor(factor=factor):
-                return await self._ask(lambda: controls.set_factor(factor))
-            case Spawn() | Delete():
-                raise ViewerError('robots come and go by the program: sim.spawn, sim.remove')
-            case StartRecording() | StopRecording():
-                raise ViewerError('the program records: sim.record, sim.end_recording')
-            case Place():
-                raise ViewerError('a robot is put elsewhere by the program: sim.spawn with a pose')
-            case _:
-                self._refuse(f"'{request.types[0]}'")
+        handlers = Handlers(self._refuse_request)
+        handlers.add(
+            Play,
+            lambda request, _: self._ask(lambda: controls.play(paused=request.type != 'play')),
+        )
+        handlers.add(Step, lambda request, _: self._ask(lambda: controls.step(request.steps)))
+        handlers.add(ResetSimulation, lambda *_: self._ask(controls.reset))
+        handlers.add(
+            SetFactor, lambda request, _: self._ask(lambda: controls.set_factor(request.factor))
+        )
+        return handlers
+
+    def _refuse_request(self, request: Request) -> NoReturn:
+        if (instead := _BY_THE_PROGRAM.get(type(request))) is not None:
+            raise ViewerError(instead)
+        self._refuse(f"'{request.types[0]}'")
 
     def _refuse(self, what: str) -> NoReturn:
         raise ViewerError(f'{what} {_NEEDS_ROS}')
@@ -253,7 +264,7 @@ class PageBackend:
 
         self.calls.put(attempt)
 
-    async def _ask(self, call: Callable[[], str]) -> Answer:
+    async def _ask(self, call: Callable[[], str]) -> str:
         """Have a call made between two steps, and return its answer."""
         self._require_playing()
         loop = asyncio.get_running_loop()
@@ -279,7 +290,7 @@ class PageBackend:
         self.calls.put(attempt)
         try:
             async with asyncio.timeout(_LONGEST_WAIT):
-                return Answer(await answer)
+                return await answer
         except TimeoutError:
             raise ViewerError(
                 f'the simulation has not answered for {_LONGEST_WAIT:g} s: {IDLE}'

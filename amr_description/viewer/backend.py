@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the server needs from whatever knows the robots."""
 
-from collections.abc import Mapping, Sequence, Set as AbstractSet
+from collections.abc import Awaitable, Callable, Mapping, Sequence, Set as AbstractSet
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NoReturn, Protocol, TypeAlias, TypeVar
 
 from amr_description.model.frames import Vector
 from amr_description.viewer.protocol import Channel, ServerMessage
@@ -63,6 +63,41 @@ class Answer:
     data: Any = None
 
 
+R = TypeVar('R', bound=Request)
+Handler: TypeAlias = Callable[[R, str], Awaitable[Answer | str]]
+"""Carries out a request of a page, which is named; returns what was done. Raises AmrError."""
+
+
+class Handlers:
+    """
+    What carries out the requests of pages, by their types: the one way from a request to its code.
+
+    Args:
+        refuse: raises why a request is not carried out here, for those that nothing is added for.
+    """
+
+    def __init__(self, refuse: Callable[[Request], NoReturn]) -> None:
+        self._refuse = refuse
+        self._handlers: dict[type, Handler[Any]] = {}
+
+    def add(self, kind: type[R], handler: Handler[R]) -> None:
+        """Have requests of a type carried out so."""
+        self._handlers[kind] = handler
+
+    @property
+    def kinds(self) -> frozenset[type]:
+        """The types of requests that are carried out."""
+        return frozenset(self._handlers)
+
+    async def carry_out(self, request: Request, page: str) -> Answer:
+        """Carry out a request of a page, which is named. Raises AmrError."""
+        handler = self._handlers.get(type(request))
+        if handler is None:
+            self._refuse(request)
+        done = await handler(request, page)
+        return Answer(done) if isinstance(done, str) else done
+
+
 class Backend(Protocol):
     """
     The robots, as pages see and move them.
@@ -70,6 +105,9 @@ class Backend(Protocol):
     Every method is called on the server's thread and must not block. The message of a ViewerError
     is sent to the page that asked.
     """
+
+    handlers: Handlers
+    """Of the requests of pages."""
 
     def open(self) -> None:
         """The first page has connected: start to collect data."""
@@ -132,9 +170,6 @@ class Backend(Protocol):
 
     def hold_joints(self, robot: str | None) -> None:
         """Stop the joints of a robot, None: of all, that pages have moved by controllers."""
-
-    async def handle(self, request: Request, page: str) -> Answer:
-        """Carry out a request of a page, which is named. Raises ViewerError."""
 
     def forget(self, page: str) -> None:
         """A page has disconnected: end what it alone wanted."""

@@ -122,4 +122,3 @@ BagRequest: TypeAlias = (
     Seek | Playback | ReadSeries | ReadOverview | StartRecording | StopRecording
 )
 """What pages ask about bags."""
-BAG_REQUESTS = (Seek, Playback, ReadSeries, ReadOverview, StartRecording, StopRecording)

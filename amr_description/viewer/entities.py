@@ -8,11 +8,12 @@ have any, in any namespace. So a simulator of this package says with what it has
 another one an entity is the robot whose namespace has its name.
 """
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from amr_description.errors import DescriptionError
 from amr_description.model.urdf import parse
+from amr_description.viewer.protocol import EntityInfo
 
 _MOVED = ('<ros2_control', '<plugin')
 """What in a description says that the entity is a robot, and no box that lies about."""
@@ -50,6 +51,30 @@ def entity_of(robot: str, urdf: str | None, spawned: Iterable[SpawnedEntity]) ->
         links = _links(urdf)
         same = [each for each in here if links and _links(each.urdf) == links]
     return same[0].name if len(same) == 1 else None
+
+
+def entity_among(
+    worlds: Mapping[str, Iterable[SpawnedEntity]],
+    silent: Mapping[str, Collection[str]],
+    robot: str,
+    urdf: str | None,
+) -> EntityInfo | None:
+    """
+    Return what a robot is in the world of a simulator; None: nothing, or it cannot be told.
+
+    Args:
+        worlds: With what simulators say that they have spawned their entities, by the simulator.
+        silent: Those that say nothing of it, with the names of their entities.
+        robot: The robot's namespace.
+        urdf: Its description in the graph; None: not known yet.
+    """
+    for simulator, spawned in worlds.items():
+        if (name := entity_of(robot, urdf, spawned)) is not None:
+            return EntityInfo(simulator, name)
+    for simulator, names in silent.items():
+        if simulator not in worlds and robot.removeprefix('/') in names:
+            return EntityInfo(simulator, robot.removeprefix('/'))
+    return None
 
 
 def undescribed(

@@ -14,15 +14,7 @@ from typing import Annotated, Any, ClassVar, get_args, Literal, TypeAlias
 from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
 from amr_description.text import quote
-from amr_description.viewer.bags import (
-    BAG_REQUESTS,
-    Playback,
-    ReadOverview,
-    ReadSeries,
-    Seek,
-    StartRecording,
-    StopRecording,
-)
+from amr_description.viewer.bags import BagRequest
 from amr_description.viewer.protocol import FrameInfo, RobotLayout
 
 _LARGEST_ID = 2**53  # up to here JavaScript's numbers are exact integers
@@ -405,41 +397,13 @@ Request: TypeAlias = (
     | SetGoal
     | CancelGoal
     | SetInitialPose
-    | Seek
-    | Playback
-    | ReadSeries
-    | ReadOverview
-    | StartRecording
-    | StopRecording
+    | BagRequest
 )
 """Messages with an ``id``, which get a reply."""
 ClientMessage: TypeAlias = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request
 """A text frame from a page."""
 
-REQUESTS = (
-    Play,
-    Step,
-    ResetSimulation,
-    SetFactor,
-    Spawn,
-    LoadWorld,
-    Place,
-    ResetEntity,
-    Delete,
-    SetUp,
-    Switch,
-    DeactivateDrive,
-    Definition,
-    Publish,
-    Unpublish,
-    ListParameters,
-    SetParameter,
-    SetGoal,
-    CancelGoal,
-    SetInitialPose,
-    *BAG_REQUESTS,
-)
-MESSAGES = (Drive, Stop, PressStop, Release, SetJoints, Push, Watch, *REQUESTS)
+MESSAGES: tuple[type[ClientMessage], ...] = get_args(ClientMessage)
 _BY_TYPE = {name: message for message in MESSAGES for name in message.types}
 
 

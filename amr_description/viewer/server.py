@@ -3,9 +3,8 @@
 """
 The server: one port for the page and its WebSocket, and an asyncio loop in a thread of its own.
 
-:meth:`Server.start`, :meth:`Server.publish`, :meth:`Server.send_to`, :meth:`Server.retain`,
-:meth:`Server.call` and :meth:`Server.stop` may be called on any thread; everything else runs on
-the server's thread.
+:meth:`Server.start`, :meth:`Server.call` and :meth:`Server.stop` may be called on any thread;
+everything else runs on the server's thread.
 """
 
 import asyncio
@@ -36,7 +35,7 @@ from amr_description.viewer.protocol import (
     ServerMessage,
     SimulationStatus,
 )
-from amr_description.viewer.requests import decode, Part
+from amr_description.viewer.requests import decode
 from amr_description.viewer.sessions import MessageRouter
 
 STATIC = Path(__file__).parent / 'static'
@@ -106,7 +105,8 @@ class Server:
         self._socket = _bind(settings.host, settings.port)
         files = StaticFiles(static)
         self._http = HttpFiles(files, backend.mesh, settings.access, settings.ancestors)
-        self._pages = Pages()
+        self.pages = Pages()
+        """Those that are open; for the server's thread."""
         self._loop = asyncio.new_event_loop()
         self._loop.set_exception_handler(self._on_exception)
         self._stopping = asyncio.Event()
@@ -116,7 +116,7 @@ class Server:
         self._idle: dict[ServerConnection, None] = {}
         self._is_open = False
         """Whether the backend is connected with the graph."""
-        self._router = MessageRouter(backend, self._pages, log_error, self._close_if_idle)
+        self._router = MessageRouter(backend, self.pages, log_error, self._close_if_idle)
         self._thread = threading.Thread(target=self._run, name='viewer')
 
     @property
@@ -138,26 +138,6 @@ class Server:
             self._loop.call_soon_threadsafe(self._stopping.set)
             self._thread.join()
         self._socket.close()
-
-    def publish(self, subject: str, message: ServerMessage) -> None:
-        """Call :meth:`Pages.publish` on the server's thread."""
-        self.call(lambda: self._pages.publish(subject, message))
-
-    def publish_now(self, subject: str, message: ServerMessage) -> None:
-        """Call :meth:`Pages.publish`; on the server's thread."""
-        self._pages.publish(subject, message)
-
-    def send_now(self, message: ServerMessage) -> None:
-        """Call :meth:`Pages.send_message`; on the server's thread."""
-        self._pages.send_message(message)
-
-    def send_to(self, part: Part, message: ServerMessage) -> None:
-        """Call :meth:`Pages.send_to` on the server's thread."""
-        self.call(lambda: self._pages.send_to(part, message))
-
-    def retain(self, subjects: list[str]) -> None:
-        """Call :meth:`Pages.retain` on the server's thread."""
-        self.call(lambda: self._pages.retain(subjects))
 
     def call(self, callback: Callable[[], object]) -> None:
         """Call something on the server's thread soon, unless it has ended."""
@@ -213,11 +193,11 @@ class Server:
 
     async def _serve_page(self, connection: ServerConnection) -> None:
         """Serve a page from its connection to its end."""
-        if self._pages.is_full:
+        if self.pages.is_full:
             reason = f'{MOST_PAGES} pages are open already; close one of them first'
             await connection.close(CloseCode.TRY_AGAIN_LATER, reason)
             return
-        page = Page(self._pages.next_name(), connection)
+        page = Page(self.pages.next_name(), connection)
         self._connect(page)
         try:
             async for frame in connection:
@@ -236,24 +216,24 @@ class Server:
         if not self._is_open:
             self._is_open = True
             self._backend.open()
-        if not len(self._pages):
+        if not len(self.pages):
             self._start_states()
         hello = Hello(page.name, settings.version, settings.domain, settings.rate, DRIVE_TIMEOUT)
-        self._pages.add(page, hello)
+        self.pages.add(page, hello)
 
     def _disconnect(self, page: Page) -> None:
-        self._pages.remove(page)
+        self.pages.remove(page)
         self._router.disconnect(page)
-        if not len(self._pages):
+        if not len(self.pages):
             self._stop_states()
             self._close_if_idle()
 
     def _close_if_idle(self) -> None:
         """Disconnect from the graph, unless there are pages or robots that STOP holds."""
-        if self._is_open and not len(self._pages) and not self._router.stops.is_engaged:
+        if self._is_open and not len(self.pages) and not self._router.stops.is_engaged:
             self._is_open = False
             self._backend.close()
-            self._pages.clear_latched()
+            self.pages.clear_latched()
 
     def _start_states(self) -> None:
         """Send what is new, at a steady rate, from now on."""
@@ -272,9 +252,9 @@ class Server:
             for message in messages:
                 self._publish_message(message)
             if state is not None:
-                self._pages.send_state(state)
+                self.pages.send_state(state)
             if self._router.shows_topics:
-                self._pages.send_samples(self._backend.take_samples(self._pages.wanted))
+                self.pages.send_samples(self._backend.take_samples(self.pages.wanted))
         except Exception as error:
             self._log_error(f'no more states are sent: {type(error).__name__}: {error}')
             return
@@ -284,13 +264,13 @@ class Server:
     def _publish_message(self, message: ServerMessage) -> None:
         match message:
             case Layout():
-                self._pages.publish('', message)
+                self.pages.publish('', message)
             case SimulationStatus():
-                self._pages.publish(message.simulator, message)
+                self.pages.publish(message.simulator, message)
             case Commanders():
-                self._pages.publish(message.robot, message)
+                self.pages.publish(message.robot, message)
             case _:
-                self._pages.send_message(message)
+                self.pages.send_message(message)
 
     def _on_exception(self, _: asyncio.AbstractEventLoop, context: dict[str, object]) -> None:
         error = context.get('exception')

@@ -212,7 +212,7 @@ class MessageRouter:
 
     async def _handle(self, page: Page, request: Request) -> None:
         try:
-            answer = await self._backend.handle(request, page.name)
+            answer = await self._backend.handlers.carry_out(request, page.name)
             reply = Reply(request.id, True, answer.message, answer.data)
         except PartlyDoneError as error:
             reply = Reply(request.id, False, str(error), again=error.again)

@@ -87,6 +87,7 @@ class ScriptedRobots:
     def __init__(self, scene):
         self.scene = scene
         self.server = None
+        self.handlers = self
         self.asked = []
         self._calls = 0
         self._is_begun = False
@@ -97,12 +98,12 @@ class ScriptedRobots:
 
     def _show(self, scene):
         self.scene = scene
-        self.server._pages.retain(['/none'])
+        self.server.pages.retain(['/none'])
         self.open()
 
     def open(self):
         for subject, message in self.scene.messages:
-            self.server.publish_now(subject, message)
+            self.server.pages.publish(subject, message)
         self._calls = 0
         self._is_begun = False
 
@@ -147,7 +148,7 @@ class ScriptedRobots:
     def hold_joints(self, robot):
         pass
 
-    async def handle(self, request, page):
+    async def carry_out(self, request, page):
         self.asked.append(request)
         if (data := self.scene.answers.get(type(request))) is None:
             raise ViewerError('these robots are a script: they do nothing that they are asked')

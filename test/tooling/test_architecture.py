@@ -41,15 +41,16 @@ FEW_LINES = 80
 # gives no answer. diagnostic_updater and rosbag2_py have many names, four of them also the bag's:
 # those of the originals. Bags are also written as files of SQLite.
 # And a mux of velocity commands in the chain.
-# Vendors' files name passthrough controllers.
+# Vendors' files name passthrough controllers. What the page's node does on which of its two
+# threads is said by types.
 BUDGETS = {
-    'modules': 835,
-    'code lines': 96_221,
+    'modules': 836,
+    'code lines': 96_346,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_442,
+    'code lines of helpers in test files': 26_466,
 }
 
 BASE = {

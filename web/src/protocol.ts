@@ -1211,12 +1211,7 @@ export type Request =
   | SetGoal
   | CancelGoal
   | SetInitialPose
-  | Seek
-  | Playback
-  | ReadSeries
-  | ReadOverview
-  | StartRecording
-  | StopRecording;
+  | BagRequest;
 
 /** A text frame from a page. */
 export type ClientMessage = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request;

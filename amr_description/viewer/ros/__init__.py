@@ -5,13 +5,15 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 
 ======================  ========================================================================
 ``backend.py``          :class:`GraphBackend`: what pages ask, and what they are sent
+``threads.py``          what the server's thread may use of the graph, as types
+``ros_side.py``         what it has done on the ROS thread, and is told from there
 ``graph_monitor.py``    watches the graph, and connects to its robots and simulators
 ``robot.py``            the connection to one robot: description, commands; a simulator's world
 ``stopping.py``         holds a robot at rest: its lock, zeros for the commands of others
 ``command_topic.py``    the command in force, and how often others command
 ``pushing.py``          pushes the robots of a simulator
 ``joint_commands.py``   joints that pages move by controllers
-``goals.py``              goals and initial poses that pages give, by topics and the action
+``goals.py``            goals and initial poses that pages give, by topics and the action
 ``entity_topics.py``    with what simulators have spawned their entities
 ``spawned_robots.py``   description and transforms of robots that nobody else describes
 ``setting_up.py``       the controllers of robots that pages have spawned
@@ -33,7 +35,6 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``health.py``           … the findings of the doctor
 ``publications.py``     what pages publish by forms
 ``parameters.py``       parameters of any node, listed and set
-``on_thread.py``        have the ROS thread do something, and wait for it
 ``markers.py``          MarkerArray and /diagnostics, converted for the page
 ``service_clients.py``  services of simulators and controller managers
 ``world_change.py``     another world around the robots that are there
@@ -44,5 +45,5 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ======================  ========================================================================
 
 Subscriptions, publishers and clients are created and destroyed on the ROS thread, and used on the
-server's thread.
+server's thread as far as ``threads.py`` lets it.
 """

@@ -1,25 +1,38 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The robots of the ROS graph as the backend of the page's server (viewer/backend.py)."""
+"""
+The robots of the ROS graph as the backend of the page's server (viewer/backend.py).
+
+All of it is for the server's thread. It has of the graph what ``threads.py`` lets it have; what it
+has done on the ROS thread, and is told from there, is in ``ros_side.py``.
+"""
 
 import asyncio
-from collections.abc import Callable, Coroutine, Mapping, Sequence, Set as AbstractSet
+from collections.abc import (
+    AsyncIterator,
+    Callable,
+    Coroutine,
+    Mapping,
+    Sequence,
+    Set as AbstractSet,
+)
+from contextlib import asynccontextmanager
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 import time
-from typing import Any, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
-from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.executors import Executor
 from rclpy.node import Node
-from visualization_msgs.msg import MarkerArray
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, PartlyDoneError, ViewerError
 from amr_description.model.frames import Vector
-from amr_description.viewer.backend import Answer, Hold, Watched
-from amr_description.viewer.bags import BAG_REQUESTS
-from amr_description.viewer.joint_groups import ControllerJoints, joint_groups, with_moves
+from amr_description.viewer.backend import Handlers, Hold, Watched
+from amr_description.viewer.bags import StartRecording, StopRecording
+from amr_description.viewer.entities import entity_among
+from amr_description.viewer.joint_groups import joint_groups, with_moves
 from amr_description.viewer.protocol import (
     Channel,
     ControllerInfo,
@@ -29,7 +42,6 @@ from amr_description.viewer.protocol import (
     SensorInfo,
     ServerMessage,
     SimulationStatus,
-    World,
 )
 from amr_description.viewer.requests import (
     CancelGoal,
@@ -51,23 +63,24 @@ from amr_description.viewer.requests import (
 )
 from amr_description.viewer.ros.command_topic import DEFAULT_TIMEOUT
 from amr_description.viewer.ros.goals import Goals
-from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
-from amr_description.viewer.ros.introspection import GraphMessage
-from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
+from amr_description.viewer.ros.graph_monitor import GraphMonitor
 from amr_description.viewer.ros.page_recorder import PageRecorder
 from amr_description.viewer.ros.parameters import ParameterClients
-from amr_description.viewer.ros.publications import fields_of_type, Publications
-from amr_description.viewer.ros.robot import commanders_of, RobotConnection, still_held
+from amr_description.viewer.ros.publications import define, Publications
+from amr_description.viewer.ros.robot import still_held
+from amr_description.viewer.ros.ros_side import GraphReporter, RosCalls
 from amr_description.viewer.ros.service_clients import (
     command_timeout,
     list_controllers,
     ServiceClients,
+    SIMULATOR_REQUESTS,
     SimulatorClient,
     switch_controllers,
 )
 from amr_description.viewer.ros.setting_up import set_up
 from amr_description.viewer.ros.spawned_robots import SpawnedRobots
 from amr_description.viewer.ros.states import StateAssembler
+from amr_description.viewer.ros.threads import GraphView, ServedRobot
 from amr_description.viewer.ros.world_change import change_world, residents_of
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server
@@ -83,9 +96,9 @@ _Controllers: TypeAlias = Mapping[str, Sequence[ControllerInfo]]
 """The last known ones, by the robot."""
 
 
-class GraphBackend(GraphObserver):
+class GraphBackend:
     """
-    Runs on the server's thread, except for the callbacks of :class:`GraphObserver`.
+    See the module.
 
     :attr:`server` must be set before the server starts.
 
@@ -110,61 +123,66 @@ class GraphBackend(GraphObserver):
         bags: Path,
     ) -> None:
         self._node = node
-        self._executor = executor
         self._log_error = log_error
-        self._spawned = SpawnedRobots(executor, publish_description, log_error)
         self._services = ServiceClients(node)
         self._states = StateAssembler()
-        self._monitor = GraphMonitor(node, self._states, self._services)
-        self._monitor.observer = self
         self._parameters = ParameterClients(self._services, executor)
         log = node.get_logger().info
         self._publications = Publications(node, executor, self._refusal, self._now, log)
         self._goals = Goals(
             node,
             executor,
-            lambda each: self.server.publish_now(each.robot, each),
+            lambda each: self.server.pages.publish(each.robot, each),
             lambda call: self.server.call(call),
         )
         self._recorder = PageRecorder(
-            node, executor, bags, lambda each: self.server.publish('', each)
+            node,
+            executor,
+            bags,
+            lambda each: self.server.call(lambda: self.server.pages.publish('', each)),
         )
+        monitor = GraphMonitor(node, self._states, self._services)
+        spawned = SpawnedRobots(executor, publish_description, log_error)
+        monitor.observer = GraphReporter(monitor, self, self._goals, spawned)
+        self._graph: GraphView = monitor
+        self._ros = RosCalls(executor, monitor, spawned)
+        self._disconnect = lambda: _disconnect(node, monitor, spawned, self._ros.held)
         self._simulators: dict[str, SimulatorClient] = {}
-        self._diagnostics = LatestDiagnostics()
         self._refresher: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._status_due = 0.0
-        self._session_count = 0
-        self._session = 0
-        """From the first page's connection to the last one's end; 0: no pages."""
-        self._watched = Watched()
-        self._held: frozenset[str] = frozenset()
-        """The robots that are held at rest."""
         self._controllers: dict[str, tuple[ControllerInfo, ...]] = {}
         self._infos: tuple[RobotInfo, ...] = ()
         self._sensors: tuple[SensorInfo, ...] = ()
+        self.handlers = self._make_handlers()
+
+    def disconnect(self) -> None:
+        """
+        Disconnect from the graph, on the ROS thread, after the server has ended.
+
+        The last stops have arrived. What is held stays so: nobody may drive because this node has
+        ended. A bag is completed.
+        """
+        self._recorder.end()
+        self._disconnect()
 
     # --- called by the server --------------------------------------------------------------------
 
     def open(self) -> None:
         """Connect with the graph."""
-        self._session_count += 1
-        self._session = self._session_count
-        self._executor.create_task(self._set_session)
-        self.server.publish_now('', self._recorder.status_now())
+        self._ros.open()
+        self.server.pages.publish('', self._recorder.status_now())
         self._refresher = asyncio.create_task(self._refresh_periodically())
 
     def close(self) -> None:
         """Disconnect from the graph."""
-        self._session = 0
-        self._executor.create_task(self._set_session)
+        self._ros.close()
         if self._refresher is not None:
             self._refresher.cancel()
 
     def watch(self, watched: Watched) -> None:
-        """Collect these parts of states, and hear these topics, and nothing else of the kind."""
-        self._watched = watched
-        self._executor.create_task(self._set_watched)
+        """Collect these parts of states, subscribe to these topics, and to nothing else."""
+        self._ros.watch(watched)
 
     def take_state(self) -> tuple[Sequence[ServerMessage], bytes | None]:
         """Return what is new: messages, then a state."""
@@ -172,41 +190,37 @@ class GraphBackend(GraphObserver):
         now = time.monotonic()
         if now >= self._status_due:
             self._status_due = now + _STATUS_PERIOD
-            messages = [
-                *messages,
-                *self._statuses(),
-                *commanders_of(self._monitor.connections, now),
-            ]
+            commanders = [each.commanded_by(now) for each in self._robots.values()]
+            messages = [*messages, *self._statuses(), *commanders]
             if (ages := self._states.ages()) is not None:
                 messages.append(ages)
         return messages, state
 
     def take_samples(self, wanted: AbstractSet[tuple[Channel, str]]) -> Sequence[Sample]:
         """Return new samples of these channels, and of plotted values."""
-        return self._monitor.topics.take(wanted)
+        return self._graph.take_samples(wanted)
 
     def robots(self) -> Sequence[str]:
         """Return the robots that take velocity commands."""
-        return [name for name, each in self._monitor.connections.items() if each.found.command]
+        return [name for name, each in self._robots.items() if each.found.command]
 
     def known(self) -> Sequence[str]:
         """Return all robots."""
-        return [*self._monitor.connections]
+        return [*self._robots]
 
     def hold(self, robots: AbstractSet[str]) -> Mapping[str, Hold]:
         """Hold these robots at rest, and release the others."""
-        connections, before, self._held = self._monitor.connections, self._held, frozenset(robots)
-        for name in before - self._held:
-            if name in connections:
-                connections[name].release()
-                self._activate_again(connections[name])
+        known, before = self._robots, self._ros.held
+        if robots != before:
+            self._ros.hold(robots)
+            self._goals.stop(robots - before)
+        for name in (before - robots) & known.keys():
+            known[name].release()
+            self._activate_again(known[name])
         stamp, now = self._now(), time.monotonic()
-        held = {name: connections[name].hold(stamp, now) for name in robots if name in connections}
-        if self._held != before:
-            self._executor.create_task(self._set_held)
-            self._goals.stop(self._held - before)
+        held = {name: known[name].hold(stamp, now) for name in robots if name in known}
         return {
-            name: replace(each, controllers=self._drive_controllers(connections[name]))
+            name: replace(each, controllers=self._drive_controllers(known[name]))
             for name, each in held.items()
         }
 
@@ -216,10 +230,10 @@ class GraphBackend(GraphObserver):
 
     def push(self, simulator: str, entity: str, link: str, force: Vector, torque: Vector) -> None:
         """Push a link; no force and no torque: let go."""
-        pushing = self._monitor.pushing.get(simulator)
-        if pushing is None:
+        pusher = self._graph.snapshot.pushers.get(simulator)
+        if pusher is None:
             raise ViewerError(f'{simulator} does not hear ~/wrench, so that nothing can be pushed')
-        pushing.push(entity, link, force, torque)
+        pusher.push(entity, link, force, torque)
 
     def set_joints(self, robot: str, positions: Mapping[str, float]) -> None:
         """Move joints by joint_state_publisher, else by controllers."""
@@ -227,39 +241,9 @@ class GraphBackend(GraphObserver):
 
     def hold_joints(self, robot: str | None) -> None:
         """Stop the joints that pages have moved by controllers."""
-        for name, each in self._monitor.connections.items():
+        for name, each in self._robots.items():
             if robot in (None, name):
-                each.commands.hold(each.topics.positions())
-
-    async def handle(self, request: Request, page: str) -> Answer:
-        """Carry out a request of a page."""
-        if isinstance(request, BAG_REQUESTS):
-            return Answer(await self._recorder.handle(request))
-        match request:
-            case Definition():
-                return Answer(request.message, fields_of_type(request.message))
-            case Publish():
-                return Answer(await self._publications.publish(page, request))
-            case Unpublish():
-                return Answer(self._publications.unpublish(page, request.topic))
-            case ListParameters():
-                parameters = await self._parameters.all_of(request.node)
-                return Answer(f'{request.node} has {len(parameters)} parameters', parameters)
-            case SetParameter():
-                found = await self._parameters.set(request)
-                return Answer(f'{request.node} has taken {request.name}', found)
-            case SetGoal(robot=robot):
-                if robot in self._held:
-                    raise ViewerError(f'{robot} is stopped: it takes no goal until it is released')
-                return Answer(await self._goals.set_goal(request, page, self._now()))
-            case CancelGoal():
-                return Answer(await self._goals.cancel(request.robot))
-            case SetInitialPose():
-                return Answer(self._goals.set_initial_pose(request, self._now()))
-            case DeactivateDrive():
-                return Answer(await self._deactivate_drive(self._connection(request.robot)))
-            case _:
-                return Answer(await self._simulate(request))
+                each.hold_joints()
 
     def forget(self, page: str) -> None:
         """End what a page published."""
@@ -267,52 +251,93 @@ class GraphBackend(GraphObserver):
 
     def latest(self, part: Part) -> ServerMessage | None:
         """Return what is known of a part that is not of the states."""
-        return self._monitor.introspection.latest(part)
+        return self._graph.latest(part)
 
     def _refusal(self, topic: str) -> str | None:
         """Return why pages must not publish on a topic by forms; None: they may."""
-        for name in self._held:
-            each = self._monitor.connections.get(name)
+        for name in self._ros.held:
+            each = self._robots.get(name)
             if each is not None and each.found.command and each.found.command.topic == topic:
                 return f'{name} is stopped: nothing is published on {topic} until it is released'
         return None
 
-    async def _simulate(self, request: SimulatorRequest | SetUp | Switch) -> str:
-        """Have controllers switched, or a simulator do something; return what was done."""
-        if isinstance(request, SetUp):
-            return await self._set_up(request.robot, request.like, self._controllers)
-        if isinstance(request, Switch):
-            manager = self._connection(request.robot).found.manager
-            if manager is None:
-                raise ViewerError(f'{request.robot} has no controller manager')
-            try:
-                return await switch_controllers(self._services, manager, request)
-            finally:
-                self._list_controllers(request.robot)
-        simulator = self._simulators.get(request.simulator)
+    def _make_handlers(self) -> Handlers:
+        """Return what carries out requests, each in one place."""
+        handlers = Handlers(_refuse_bag_request)
+        handlers.add(Definition, define)
+        handlers.add(Publish, self._publications.publish)
+        handlers.add(Unpublish, self._publications.unpublish)
+        handlers.add(ListParameters, self._parameters.list_all)
+        handlers.add(SetParameter, self._parameters.set)
+        handlers.add(SetGoal, self._set_goal)
+        handlers.add(CancelGoal, self._goals.cancel)
+        handlers.add(SetInitialPose, self._set_initial_pose)
+        handlers.add(StartRecording, self._recorder.start)
+        handlers.add(StopRecording, self._recorder.stop)
+        handlers.add(Switch, self._switch)
+        handlers.add(DeactivateDrive, self._deactivate_drive)
+        handlers.add(SetUp, self._set_up_asked)
+        handlers.add(Spawn, self._spawn)
+        handlers.add(LoadWorld, self._load_world)
+        for kind in SIMULATOR_REQUESTS:
+            handlers.add(kind, self._simulate)
+        return handlers
+
+    async def _set_goal(self, request: SetGoal, page: str) -> str:
+        robot = request.robot
+        if robot in self._ros.held:
+            raise ViewerError(f'{robot} is stopped: it takes no goal until it is released')
+        return await self._goals.set_goal(request, page, self._now())
+
+    async def _set_initial_pose(self, request: SetInitialPose, _: str) -> str:
+        return self._goals.set_initial_pose(request, self._now())
+
+    async def _switch(self, request: Switch, _: str) -> str:
+        manager = self._connection(request.robot).found.manager
+        if manager is None:
+            raise ViewerError(f'{request.robot} has no controller manager')
+        try:
+            return await switch_controllers(self._services, manager, request)
+        finally:
+            self.list_controllers(request.robot)
+
+    async def _set_up_asked(self, request: SetUp, _: str) -> str:
+        return await self._set_up(request.robot, request.like, self._controllers)
+
+    @asynccontextmanager
+    async def _simulator(self, name: str) -> AsyncIterator[SimulatorClient]:
+        """Yield a simulator, which is asked afterwards how it is. Raises ViewerError."""
+        simulator = self._simulators.get(name)
         if simulator is None:
             known = ', '.join(self._simulators) or 'none'
-            raise ViewerError(f'there is no simulator {request.simulator!a}; there are: {known}')
-        before = dict(self._controllers)  # a robot in the place of another one begins without any
+            raise ViewerError(f'there is no simulator {name!a}; there are: {known}')
         try:
-            if isinstance(request, LoadWorld):
-                spawned = self._monitor.entities.spawned.get(simulator.name, ())
-                connections = self._monitor.connections
-                residents = residents_of(simulator.name, spawned, self._infos, connections)
-                return await change_world(self._services, simulator, residents, request)
-            done = await simulator.handle(request)
+            yield simulator
         finally:
             self._start(self._refresh(simulator))
-        return (
-            await self._spawned_by(request, done, before) if isinstance(request, Spawn) else done
-        )
+
+    async def _simulate(self, request: SimulatorRequest, _: str) -> str:
+        async with self._simulator(request.simulator) as simulator:
+            return await SIMULATOR_REQUESTS[type(request)](simulator, request)
+
+    async def _load_world(self, request: LoadWorld, _: str) -> str:
+        async with self._simulator(request.simulator) as simulator:
+            spawned = self._graph.snapshot.spawned.get(simulator.name, ())
+            residents = residents_of(simulator.name, spawned, self._infos, self._robots)
+            return await change_world(self._services, simulator, residents, request)
+
+    async def _spawn(self, request: Spawn, _: str) -> str:
+        before = dict(self._controllers)  # a robot in the place of another one begins without any
+        async with self._simulator(request.simulator) as simulator:
+            done = await simulator.spawn_asked(request)
+        return await self._spawned_by(request, done, before)
 
     async def _spawned_by(self, request: Spawn, done: str, known: _Controllers) -> str:
         """Give a spawned robot its description, and the active controllers of one it is like."""
         robot = f'/{request.namespace.strip("/")}'
-        if robot not in self._monitor.connections:  # nobody publishes its description yet
-            urdf = request.urdf if request.like is None else self._description_of(request.like)
-            self._executor.create_task(self._spawned.add, robot, urdf)
+        if robot not in self._robots:  # nobody publishes its description yet
+            urdf = request.urdf or self._description_of(request.like or '')
+            self._ros.describe(robot, urdf)
         if request.like is None:
             return done
         try:
@@ -325,94 +350,43 @@ class GraphBackend(GraphObserver):
         try:
             return await set_up(self._services, robot, self._connection(like), known.get(like))
         finally:
-            self._list_controllers(robot)
+            self.list_controllers(robot)
 
     def mesh(self, name: str) -> Path | bytes | None:
         """Return a file that a description names, or its converted data."""
-        for each in self._monitor.connections.values():
+        for each in self._robots.values():
             if each.described is not None and name in each.described.files:
                 return each.described.files[name]
         return None
 
-    # --- on the ROS thread -----------------------------------------------------------------------
+    # --- called when the graph has changed -------------------------------------------------------
 
-    def _set_session(self) -> None:
-        """Pass on the present session: rclpy runs tasks in any order."""
-        self._monitor.set_session(self._session)
+    def set_graph(
+        self,
+        robots: Sequence[RobotInfo],
+        simulators: Sequence[str],
+        sensors: Sequence[SensorInfo],
+    ) -> None:
+        """Publish what there is."""
+        self._set_simulators(simulators)
+        self._publish_graph(robots, sensors)
 
-    def _set_watched(self) -> None:
-        """Pass on what is watched at present, for the same reason."""
-        self._monitor.watch(self._watched)
+    def list_controllers(self, robot: str) -> None:
+        """List the controllers of a robot anew, soon."""
+        self._start(self._list_controllers(robot))
 
-    def _set_held(self) -> None:
-        """Pass on what is held at present, for the same reason."""
-        self._monitor.hold(self._held)
+    def ask_for_world(self, simulator: str) -> None:
+        """Ask a simulator which world it has."""
+        if (client := self._simulators.get(simulator)) is not None:
+            client.has_new_world = True
+            self._start(self._refresh(client))
 
-    def _set_groups(self, connection: RobotConnection, groups: Sequence[ControllerJoints]) -> None:
-        """Advertise what moves joints, unless the robot has gone in the meantime."""
-        if connection in self._monitor.connections.values():
-            connection.commands.set_groups(groups)
+    # --- all the rest ----------------------------------------------------------------------------
 
-    def disconnect(self) -> None:
-        """
-        Disconnect from the graph, after the server has ended; the last stops have arrived.
-
-        What is held stays so: nobody may drive because this node has ended. A bag is completed.
-        """
-        self._recorder.end()
-        for name in sorted(self._held & self._monitor.connections.keys()):
-            connection = self._monitor.connections[name]
-            if connection.is_locked or connection.deactivated:
-                self._node.get_logger().warning(still_held(connection))
-        self._monitor.set_session(0)
-        self._spawned.retain(())
-
-    def graph_changed(self) -> None:
-        """Publish the graph."""
-        connections, found = self._monitor.connections, self._monitor.found
-        self._spawned.forget_deleted(found.robots)
-        simulators = [each.id for each in found.simulators]
-        infos = tuple(each.info for each in connections.values())
-        self.server.call(lambda: self._set_simulators(simulators))
-        self.server.retain([*connections, *simulators])
-        self._goals.find(found.navigators, found.tf_namespaces)
-        self.server.call(lambda: self._publish_graph(infos, found.sensors))
-        for name, each in connections.items():
-            if each.found.manager:
-                self.controllers_changed(name)
-        if self._held:
-            self._executor.create_task(self._set_held)
-
-    def graph_polled(self) -> None:
-        """Describe the robots of worlds that nobody describes."""
-        spawned = [each for all in self._monitor.entities.spawned.values() for each in all]
-        self._spawned.look(spawned, self._monitor.found.robots, time.monotonic())
-
-    def description_changed(self, connection: RobotConnection) -> None:
-        """Publish the description."""
-        if connection.described is not None:
-            self.server.publish(connection.found.id, connection.described.message)
-
-    def controllers_changed(self, robot: str) -> None:
-        """List the controllers anew."""
-        self.server.call(lambda: self._list_controllers(robot))
-
-    def world_received(self, simulator: str, message: MarkerArray) -> None:
-        """Publish the shapes of the world."""
-        self.server.publish(simulator, World(simulator, shapes_of(message)))
-        self.server.call(lambda: self._ask_for_world(simulator))
-
-    def diagnostics_received(self, message: DiagnosticArray) -> None:
-        """Publish the diagnostics of each robot."""
-        present = [each.id for each in self._monitor.found.robots if each.is_present]
-        for each in self._diagnostics.update(message, present):
-            self.server.publish(each.robot, each)
-
-    def graph_shown(self, part: Part, message: GraphMessage) -> None:
-        """Send news of the graph to the pages that show them."""
-        self.server.send_to(part, message)
-
-    # --- on the server's thread ------------------------------------------------------------------
+    @property
+    def _robots(self) -> Mapping[str, ServedRobot]:
+        """Those of the graph, by their ids."""
+        return self._graph.snapshot.robots
 
     def _set_simulators(self, names: Sequence[str]) -> None:
         before = self._simulators
@@ -424,24 +398,22 @@ class GraphBackend(GraphObserver):
             if name not in before:
                 self._start(self._refresh(simulator))
 
-    def _publish_graph(
-        self, robots: tuple[RobotInfo, ...], sensors: tuple[SensorInfo, ...]
-    ) -> None:
+    def _publish_graph(self, found: Sequence[RobotInfo], sensors: Sequence[SensorInfo]) -> None:
+        snapshot = self._graph.snapshot
         silent = {
             each.id: self._simulators[each.id].entities
-            for each in self._monitor.found.simulators
+            for each in snapshot.found.simulators
             if each.id in self._simulators and not each.hears_wrenches
         }
-        entity_of = self._monitor.entities.entity_of
-        robots = tuple(
-            replace(each, entity=entity_of(each.id, self._urdf_of(each.id), silent))
-            for each in robots
+        entities = partial(entity_among, snapshot.spawned, silent)
+        self._infos = robots = tuple(
+            replace(each, entity=entities(each.id, self._urdf_of(each.id))) for each in found
         )
-        self._infos, self._sensors = robots, sensors
+        self._sensors = sensors = tuple(sensors)
         simulators = tuple(each.info for each in self._simulators.values())
         hint = None if robots else self._hint()
         navigators = self._goals.navigators
-        self.server.publish_now('', Graph(robots, simulators, hint, sensors, navigators))
+        self.server.pages.publish('', Graph(robots, simulators, hint, sensors, navigators))
 
     def _hint(self) -> str:
         return (
@@ -465,15 +437,15 @@ class GraphBackend(GraphObserver):
             for name, simulator in self._simulators.items()
         ]
 
-    def _connection(self, robot: str) -> RobotConnection:
-        connection = self._monitor.connections.get(robot)
+    def _connection(self, robot: str) -> ServedRobot:
+        connection = self._robots.get(robot)
         if connection is None:
-            known = ', '.join(self._monitor.connections) or 'none'
+            known = ', '.join(self._robots) or 'none'
             raise ViewerError(f'there is no robot {robot!a}; there are: {known}')
         return connection
 
     def _urdf_of(self, robot: str) -> str | None:
-        connection = self._monitor.connections.get(robot)  # None: it has gone meanwhile
+        connection = self._robots.get(robot)  # None: it has gone meanwhile
         described = None if connection is None else connection.described
         return None if described is None else described.message.urdf
 
@@ -492,22 +464,19 @@ class GraphBackend(GraphObserver):
                 return sources.clock.time
         return self._node.get_clock().now().nanoseconds
 
-    def _list_controllers(self, robot: str) -> None:
-        async def list_them() -> None:
-            connection = self._monitor.connections.get(robot)
-            if connection is not None and connection.found.manager is not None:
-                manager = connection.found.manager
-                controllers = await list_controllers(self._services, manager, robot)
-                groups = joint_groups(controllers.controllers, connection.found.joint_commands)
-                self._controllers[robot] = controllers.controllers
-                self._executor.create_task(self._set_groups, connection, groups)
-                self.server.publish_now(robot, with_moves(controllers, groups))
-                if connection.timeout is None and connection.found.drive_parameters:
-                    await self._find_timeout(connection, connection.found.drive_parameters)
+    async def _list_controllers(self, robot: str) -> None:
+        connection = self._robots.get(robot)
+        if connection is None or connection.found.manager is None:
+            return
+        controllers = await list_controllers(self._services, connection.found.manager, robot)
+        groups = joint_groups(controllers.controllers, connection.found.joint_commands)
+        self._controllers[robot] = controllers.controllers
+        self._ros.set_groups(robot, groups)
+        self.server.pages.publish(robot, with_moves(controllers, groups))
+        if connection.timeout is None and connection.found.drive_parameters:
+            await self._find_timeout(connection, connection.found.drive_parameters)
 
-        self._start(list_them())
-
-    async def _find_timeout(self, connection: RobotConnection, service: str) -> None:
+    async def _find_timeout(self, connection: ServedRobot, service: str) -> None:
         """Have the commands of a robot expire when its controller has them expire."""
         kinds = [
             each.kind
@@ -520,29 +489,30 @@ class GraphBackend(GraphObserver):
         timeout = await command_timeout(self._services, service)
         connection.set_timeout(timeout or DEFAULT_TIMEOUT)
 
-    def _drive_controllers(self, connection: RobotConnection) -> tuple[str, ...]:
+    def _drive_controllers(self, connection: ServedRobot) -> tuple[str, ...]:
         """Return the active controllers that take the commands of a robot."""
         nodes = {each.rpartition('/')[2] for each in connection.drives}
         listed = self._controllers.get(connection.found.id, ())
         return tuple(each.name for each in listed if each.state == 'active' and each.name in nodes)
 
-    async def _deactivate_drive(self, connection: RobotConnection) -> str:
+    async def _deactivate_drive(self, request: DeactivateDrive, _: str) -> str:
+        connection = self._connection(request.robot)
         robot, manager = connection.found.id, connection.found.manager
         names = self._drive_controllers(connection)
-        if robot not in self._held:
+        if robot not in self._ros.held:
             raise ViewerError(f'{robot} is not stopped; press STOP first')
         if manager is None or not names:
             raise ViewerError(f'no active controller of a controller manager drives {robot}')
         try:
             done = await switch_controllers(self._services, manager, Switch(0, robot, (), names))
         finally:
-            self._list_controllers(robot)
+            self.list_controllers(robot)
         connection.deactivated = (*connection.deactivated, *names)
-        if robot not in self._held:  # it was released in the meantime
+        if robot not in self._ros.held:  # it was released in the meantime
             self._activate_again(connection)
         return f'{done} until {robot} is released'
 
-    def _activate_again(self, connection: RobotConnection) -> None:
+    def _activate_again(self, connection: ServedRobot) -> None:
         """Activate what was deactivated to stop a robot, and say so if that fails."""
         robot, manager, names = (
             connection.found.id,
@@ -558,16 +528,11 @@ class GraphBackend(GraphObserver):
                 await switch_controllers(self._services, manager, Switch(0, robot, names, ()))
             except ViewerError as error:
                 text = f'{", ".join(names)} of {robot} stays inactive: {error}'
-                self.server.send_now(Notice('error', text))
+                self.server.pages.send_message(Notice('error', text))
             finally:
-                self._list_controllers(robot)
+                self.list_controllers(robot)
 
         self._start(activate())
-
-    def _ask_for_world(self, simulator: str) -> None:
-        if (client := self._simulators.get(simulator)) is not None:
-            client.has_new_world = True
-            self._start(self._refresh(client))
 
     async def _refresh(self, simulator: SimulatorClient) -> None:
         before = simulator.info
@@ -580,9 +545,9 @@ class GraphBackend(GraphObserver):
             await asyncio.sleep(_REFRESH_PERIOD)
             for simulator in self._simulators.values():
                 self._start(self._refresh(simulator))
-            for name, each in self._monitor.connections.items():
+            for name, each in self._robots.items():
                 if each.found.activity is None and each.found.manager is not None:
-                    self._list_controllers(name)
+                    self.list_controllers(name)
 
     def _start(self, work: Coroutine[Any, Any, None]) -> None:
         """Start a task; services that do not answer are called again later."""
@@ -598,3 +563,19 @@ class GraphBackend(GraphObserver):
         task = asyncio.get_running_loop().create_task(run())
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+
+
+def _refuse_bag_request(_: Request) -> NoReturn:
+    raise ViewerError('no bag is shown here; `viewer --bag PATH` shows one')
+
+
+def _disconnect(
+    node: Node, monitor: GraphMonitor, spawned: SpawnedRobots, held: AbstractSet[str]
+) -> None:
+    """Close the session, and say which robots stay held; on the ROS thread."""
+    for name in sorted(held & monitor.connections.keys()):
+        connection = monitor.connections[name]
+        if connection.is_locked or connection.deactivated:
+            node.get_logger().warning(still_held(connection))
+    monitor.set_session(0)
+    spawned.retain(())

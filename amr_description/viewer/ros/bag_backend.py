@@ -16,7 +16,7 @@ from amr_description.bag.storage import TopicMetadata
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import ViewerError
 from amr_description.model.frames import Vector
-from amr_description.viewer.backend import Answer, Hold, Watched
+from amr_description.viewer.backend import Answer, Handlers, Hold, Watched
 from amr_description.viewer.bags import (
     Playback,
     Playhead,
@@ -41,9 +41,9 @@ from amr_description.viewer.protocol import (
     ServerMessage,
     World,
 )
-from amr_description.viewer.requests import Definition, OverviewData, Part, Request
+from amr_description.viewer.requests import Definition, OverviewData, Part
 from amr_description.viewer.ros.bag_samples import BagSamples, read_series
-from amr_description.viewer.ros.publications import fields_of_type
+from amr_description.viewer.ros.publications import define
 from amr_description.viewer.ros.recorded import Recorded, RecordedRobot
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server
@@ -104,6 +104,12 @@ class BagBackend:
         self._reads: dict[str, set[threading.Event]] = {}
         """By page: set, they end what is read for it."""
         self._overview: asyncio.Task[OverviewData] | None = None
+        self.handlers = Handlers(lambda _: self._refuse())
+        self.handlers.add(Seek, self._move)
+        self.handlers.add(Playback, self._run)
+        self.handlers.add(ReadSeries, self._series)
+        self.handlers.add(ReadOverview, self._whole)
+        self.handlers.add(Definition, define)
 
     def close_bag(self) -> None:
         """Close the files, after the server has ended."""
@@ -119,13 +125,13 @@ class BagBackend:
         begin = recorded.begin / NANOSECONDS
         count = metadata.message_count
         recording = Recording(path.name, str(path), begin, length, count, self._reader.size)
-        self.server.publish_now('', recording)
+        self.server.pages.publish('', recording)
         robots = tuple(_info(each) for each in recorded.robots)
         hint = None if robots else _hint(path)
-        self.server.publish_now('', Graph(robots, (), hint, recorded.graph.sensors))
+        self.server.pages.publish('', Graph(robots, (), hint, recorded.graph.sensors))
         for robot in recorded.robots:
             if robot.described is not None:
-                self.server.publish_now(robot.found.id, robot.described.message)
+                self.server.pages.publish(robot.found.id, robot.described.message)
         self._shown = self._told_head = None
         self._worlds.clear()
 
@@ -159,7 +165,7 @@ class BagBackend:
         self._show_worlds(at)
         if 'transforms' in self._parts and now >= self._tree_due:
             self._tree_due = now + _TREE_PERIOD
-            self.server.send_to('transforms', self._transforms(at))
+            self.server.pages.send_to('transforms', self._transforms(at))
         return messages, self._states.take(at)
 
     def take_samples(self, wanted: AbstractSet[tuple[Channel, str]]) -> Sequence[Sample]:
@@ -186,24 +192,6 @@ class BagBackend:
         return None
 
     # --- what pages ask --------------------------------------------------------------------------
-
-    async def handle(self, request: Request, page: str) -> Answer:
-        """Carry out a request of a page. Raises ViewerError."""
-        match request:
-            case Seek(place=place):
-                self._move(place)
-                return Answer('')
-            case Playback():
-                self._run(playing=request.playing, rate=request.rate)
-                return Answer('playing' if request.playing else 'paused')
-            case ReadSeries(topic=topic, path=path):
-                return Answer(f'{topic} {path}', await self._series(topic, path, page))
-            case ReadOverview():
-                return Answer('the whole recording', await self._whole())
-            case Definition():
-                return Answer(request.message, fields_of_type(request.message))
-            case _:
-                self._refuse()
 
     def robots(self) -> Sequence[str]:
         """Return none: nothing takes commands."""
@@ -245,13 +233,15 @@ class BagBackend:
             self._clock.jump(self.recorded.end)
         return min(max(at, self.recorded.begin), self.recorded.end)
 
-    def _move(self, place: float) -> None:
+    async def _move(self, request: Seek, _: str) -> str:
         begin, end = self.recorded.begin, self.recorded.end
-        at = begin + round(place * NANOSECONDS)
+        at = begin + round(request.place * NANOSECONDS)
         self._clock.jump(min(max(at, begin), end))
         self._head_due = 0.0
+        return ''
 
-    def _run(self, *, playing: bool, rate: float) -> None:
+    async def _run(self, request: Playback, _: str) -> str:
+        playing, rate = request.playing, request.rate
         if not 0.0 < rate <= _FASTEST:
             raise ViewerError(f'a rate is above 0 and at most {_FASTEST:g}, not {rate:g}')
         if playing and self._clock.paused and self._now() >= self.recorded.end:
@@ -262,6 +252,7 @@ class BagBackend:
         else:
             self._clock.pause()
         self._head_due = 0.0
+        return 'playing' if playing else 'paused'
 
     def _tell_head(self, at: int, now: float) -> None:
         head = at, not self._clock.paused, self._clock.rate
@@ -270,7 +261,7 @@ class BagBackend:
         if head != before and (has_turned or now >= self._head_due):
             self._told_head, self._head_due = head, now + _HEAD_PERIOD
             place = (at - self.recorded.begin) / NANOSECONDS
-            self.server.publish_now('', Playhead(round(place, 6), head[1], head[2]))
+            self.server.pages.publish('', Playhead(round(place, 6), head[1], head[2]))
 
     # --- parts -----------------------------------------------------------------------------------
 
@@ -279,7 +270,7 @@ class BagBackend:
             world = each.at(at)
             if world is not None and self._worlds.get(simulator) is not world:
                 self._worlds[simulator] = world
-                self.server.publish_now(simulator, world)
+                self.server.pages.publish(simulator, world)
 
     def _topics(self) -> Topics:
         recorded = self.recorded
@@ -312,17 +303,19 @@ class BagBackend:
             {},
         )
 
-    async def _series(self, topic: str, path: str, page: str) -> object:
-        """Return a number of all messages. Raises ViewerError: there is none, or it takes long."""
+    async def _series(self, request: ReadSeries, page: str) -> Answer:
+        """Answer with a number of all messages. Raises ViewerError: it has none, or takes long."""
+        topic, path = request.topic, request.path
         is_over = threading.Event()
         reads = self._reads.setdefault(page, set())
         reads.add(is_over)
         loop = asyncio.get_running_loop()
         try:
             async with asyncio.timeout(_LONGEST_READ):
-                return await loop.run_in_executor(
+                series = await loop.run_in_executor(
                     None, read_series, self._path, self.recorded, topic, path, is_over
                 )
+            return Answer(f'{topic} {path}', series)
         except TimeoutError:
             raise ViewerError(
                 f'{topic} takes longer than {_LONGEST_READ:g} s to read; '
@@ -332,12 +325,12 @@ class BagBackend:
             is_over.set()
             reads.discard(is_over)
 
-    async def _whole(self) -> OverviewData:
-        """Return states of the whole bag; they are made once."""
+    async def _whole(self, _: ReadOverview, __: str) -> Answer:
+        """Answer with states of the whole bag; they are made once."""
         if self._overview is None:
             loop = asyncio.get_running_loop()
             self._overview = loop.create_task(asyncio.to_thread(overview, self.recorded))
-        return await asyncio.shield(self._overview)
+        return Answer('the whole recording', await asyncio.shield(self._overview))
 
 
 class BagStates:

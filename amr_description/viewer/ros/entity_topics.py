@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """With what the simulators of the graph say that they have spawned their entities."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
 
 from rclpy.node import Node
@@ -10,8 +10,7 @@ from rclpy.subscription import Subscription
 from simulation_interfaces.msg import SpawnEntity
 
 from amr_description.ros.qos import LATCHED
-from amr_description.viewer.entities import entity_of, SpawnedEntity
-from amr_description.viewer.protocol import EntityInfo
+from amr_description.viewer.entities import SpawnedEntity
 
 
 class EntityTopics:
@@ -44,26 +43,6 @@ class EntityTopics:
                 SpawnEntity, topic, partial(self._receive, topic), LATCHED
             )
         self._set_spawned()
-
-    def entity_of(
-        self, robot: str, urdf: str | None, simulators: Mapping[str, Collection[str]]
-    ) -> EntityInfo | None:
-        """
-        Return what a robot is in the world of a simulator; None: nothing, or it cannot be told.
-
-        Args:
-            robot: Its namespace.
-            urdf: Its description; None: not known yet.
-            simulators: Those that do not tell with what they have spawned their entities, with the
-                names of these.
-        """
-        for simulator, spawned in self.spawned.items():
-            if (name := entity_of(robot, urdf, spawned)) is not None:
-                return EntityInfo(simulator, name)
-        for simulator, names in simulators.items():
-            if simulator not in self.spawned and robot.removeprefix('/') in names:
-                return EntityInfo(simulator, robot.removeprefix('/'))
-        return None
 
     def _receive(self, topic: str, message: SpawnEntity) -> None:
         self._known[topic] = SpawnedEntity(

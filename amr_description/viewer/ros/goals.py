@@ -35,8 +35,8 @@ from amr_description.ros.service_calls import ActionReadiness
 from amr_description.text import shorten
 from amr_description.viewer.graph import NAVIGATE
 from amr_description.viewer.navigation import GoalStatus, Navigator
-from amr_description.viewer.requests import SetGoal, SetInitialPose
-from amr_description.viewer.ros.on_thread import on_ros_thread
+from amr_description.viewer.requests import CancelGoal, SetGoal, SetInitialPose
+from amr_description.viewer.ros.threads import on_ros_thread
 
 _ANSWER_TIMEOUT = 5.0
 """s until an action server has answered."""
@@ -172,8 +172,9 @@ class Goals:
         self._tell(GoalStatus(request.robot, page, 'published', *place))
         return f'the goal was published on {ends.navigator.goal}: {where}'
 
-    async def cancel(self, robot: str) -> str:
+    async def cancel(self, request: CancelGoal, _: str) -> str:
         """Cancel the goal of a robot; return one line about it. Raises ViewerError."""
+        robot = request.robot
         goal = self._goals.get(robot)
         if goal is None or goal.status.state != 'active':
             raise ViewerError(f'no page has given {robot} a goal that it is after')

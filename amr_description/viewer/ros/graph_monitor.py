@@ -3,12 +3,11 @@
 """
 Watches the ROS graph, and connects the viewer with its robots and simulators.
 
-Everything here runs on the ROS thread. What the server's thread reads,
-:attr:`GraphMonitor.connections`, :attr:`GraphMonitor.found`, :attr:`GraphMonitor.pushing`,
-``entities.spawned`` and ``states.sources``, is replaced as a whole and never modified.
+Everything here runs on the ROS thread, but for what a :class:`GraphView` has: that is all that the
+server's thread uses, beside ``states.sources``. Both are replaced as a whole and never modified.
 """
 
-from collections.abc import Mapping, Set as AbstractSet
+from collections.abc import Mapping, Sequence, Set as AbstractSet
 from functools import partial
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -42,7 +41,8 @@ from amr_description.viewer.graph import (
     TF,
     TWISTS,
 )
-from amr_description.viewer.joint_groups import POSITIONS, TRAJECTORY
+from amr_description.viewer.joint_groups import ControllerJoints, POSITIONS, TRAJECTORY
+from amr_description.viewer.protocol import Channel
 from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.entity_topics import EntityTopics
 from amr_description.viewer.ros.introspection import GraphMessage, Introspection
@@ -55,7 +55,9 @@ from amr_description.viewer.ros.service_clients import (
     simulator_service_types,
 )
 from amr_description.viewer.ros.states import RosClock, StateAssembler, StateSources
+from amr_description.viewer.ros.threads import GraphSnapshot
 from amr_description.viewer.ros.topic_feeds import TopicFeeds
+from amr_description.viewer.samples import Sample
 
 _PUBLISHED_TYPES = {
     ACTIVITY,
@@ -122,12 +124,14 @@ class GraphMonitor:
         """By the id of the robot."""
         self.topics = TopicFeeds(node, states.time_at)
         self.introspection = Introspection(node, lambda *told: self.observer.graph_shown(*told))
-        self.entities = EntityTopics(node, lambda: self.observer.graph_changed())
+        self.entities = EntityTopics(node, self._on_entities)
+        self.snapshot = GraphSnapshot()
         self._node = node
         self._states = states
         self._services = services
-        self.pushing: Mapping[str, Pushing] = {}
+        self._pushing: Mapping[str, Pushing] = {}
         """By the simulator."""
+        self._held: AbstractSet[str] = frozenset()
         self._worlds: dict[str, WorldSubscription] = {}
         self._session = 0
         self._watched: AbstractSet[Part] = frozenset()
@@ -153,9 +157,32 @@ class GraphMonitor:
 
     def hold(self, robots: AbstractSet[str]) -> None:
         """Answer commands of others for these robots, which are held at rest, and no others."""
-        for name, connection in self.connections.items():
+        self._held = robots
+        for connection in self.connections.values():
             connection.look()
-            connection.answer(name in robots)
+        self._answer_held()
+
+    def set_groups(self, robot: str, groups: Sequence[ControllerJoints]) -> None:
+        """Advertise what moves joints of a robot, unless it has gone."""
+        if (connection := self.connections.get(robot)) is not None:
+            connection.commands.set_groups(groups)
+
+    def take_samples(self, wanted: AbstractSet[tuple[Channel, str]]) -> Sequence[Sample]:
+        """Return new samples of these channels, and of plotted values; on the server's thread."""
+        return self.topics.take(wanted)
+
+    def latest(self, part: Part) -> GraphMessage | None:
+        """Return what a page that begins to show a part is sent at once; on any thread."""
+        return self.introspection.latest(part)
+
+    def _answer_held(self) -> None:
+        for name, connection in self.connections.items():
+            connection.answer(name in self._held)
+
+    def _take_snapshot(self) -> None:
+        self.snapshot = GraphSnapshot(
+            self.found, self.connections, self._pushing, self.entities.spawned
+        )
 
     def _watch_parts(self) -> None:
         parts = self._watched
@@ -218,12 +245,15 @@ class GraphMonitor:
         left = _present(self.found) - _present(found)
         has_other_frames = bool(left) or found.tf_namespaces != self.found.tf_namespaces
         self.connections, self.found = connections, found
+        self._take_snapshot()  # before those that have gone are destroyed
         for connection in gone:
             connection.destroy()
         self.topics.find(found.sensors)
         self._connect_worlds({each.id: each.world for each in found.simulators if each.world})
         self.entities.find({each.id: each.spawned for each in found.simulators})
         self._connect_pushing({each.id for each in found.simulators if each.hears_wrenches})
+        self._take_snapshot()
+        self._answer_held()
         if has_other_frames and self._timer is not None:  # the frames of a robot never expire
             assert self._transforms is not None, 'a session is open'
             self._transforms.destroy()
@@ -254,13 +284,17 @@ class GraphMonitor:
 
     def _connect_pushing(self, simulators: AbstractSet[str]) -> None:
         """Have publishers of wrenches for these simulators, and for no others."""
-        before = self.pushing
+        before = self._pushing
         if before.keys() != simulators:
-            self.pushing = {
+            self._pushing = {
                 name: before.get(name) or Pushing(self._node, name) for name in simulators
             }
             for name in before.keys() - simulators:
                 before[name].destroy()
+
+    def _on_entities(self) -> None:
+        self._take_snapshot()
+        self.observer.graph_changed()
 
     def _on_world(self, simulator: str, message: MarkerArray) -> None:
         self.observer.world_received(simulator, message)

@@ -26,8 +26,8 @@ from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.ros.recorder import Recorder, RecorderOptions
 from amr_description.bag.topic_filter import TopicFilter
 from amr_description.errors import AmrError, ViewerError
-from amr_description.viewer.bags import BagRequest, BagWriting, StartRecording, StopRecording
-from amr_description.viewer.ros.on_thread import on_ros_thread
+from amr_description.viewer.bags import BagWriting, StartRecording, StopRecording
+from amr_description.viewer.ros.threads import on_ros_thread
 
 _PERIOD = 0.25
 """s between two looks for new topics, and two messages about what is recorded."""
@@ -36,7 +36,9 @@ _NOTHING = BagWriting(False, '', 0.0, 0, 0, 0, 0, '', '', 0)
 
 class PageRecorder:
     """
-    Made on any thread; :meth:`handle` is called on the server's, :meth:`end` on the ROS thread.
+    Made on any thread.
+
+    :meth:`start` and :meth:`stop` are called on the server's, :meth:`end` on the ROS thread.
 
     Args:
         node: subscribes.
@@ -65,28 +67,15 @@ class PageRecorder:
         """Return the status with the room that is free now; from any thread."""
         return replace(self.status, free=_free(self._folder))
 
-    async def handle(self, request: BagRequest) -> str:
-        """Begin to record, or end that; return what was done. Raises ViewerError."""
+    async def start(self, request: StartRecording, _: str) -> str:
+        """Begin to record; return what was done. Raises ViewerError."""
+        return await on_ros_thread(self._executor, lambda: self._start(request))
 
-        def attempt() -> str | AmrError | _Ending:
-            try:
-                match request:
-                    case StartRecording():
-                        return self._start(request)
-                    case StopRecording():
-                        return self._end_receiving()
-                    case _:
-                        raise ViewerError('no bag is shown here; `viewer --bag PATH` shows one')
-            except AmrError as error:
-                return error
-
-        done = await on_ros_thread(self._executor, attempt)
-        if isinstance(done, _Ending):
-            await asyncio.to_thread(done.complete)
-            done = await on_ros_thread(self._executor, self._tell_end)
-        if isinstance(done, AmrError):
-            raise ViewerError(str(done)) from done
-        return done
+    async def stop(self, _: StopRecording, __: str) -> str:
+        """End what is recorded; return what was done. Raises ViewerError."""
+        ending = await on_ros_thread(self._executor, self._end_receiving)
+        await asyncio.to_thread(ending.complete)
+        return await on_ros_thread(self._executor, self._answer_end)
 
     # --- on the ROS thread -----------------------------------------------------------------------
 
@@ -110,17 +99,21 @@ class PageRecorder:
         self._ending = _Ending(recorder, writer)
         return self._ending
 
-    def _tell_end(self) -> str | AmrError:
-        """Tell that all is written, unless that was told; return it as an answer."""
+    def _answer_end(self) -> str:
+        """Tell that all is written; return it as an answer. Raises ViewerError: it is not."""
+        self._tell_end()
+        status = self.status
+        if status.error:
+            raise ViewerError(f'{status.path}: {status.error}')
+        return f'{status.path}: {status.messages} messages in {status.seconds:.0f} s'
+
+    def _tell_end(self) -> None:
+        """Tell that all is written, unless that was told."""
         ending, self._ending = self._ending, None
         if ending is not None:
             status = self._status(ending.recorder)
             error = status.error or ending.error
             self._publish(replace(status, active=False, error=error))
-        status = self.status
-        if status.error:
-            return ViewerError(f'{status.path}: {status.error}')
-        return f'{status.path}: {status.messages} messages in {status.seconds:.0f} s'
 
     def _start(self, request: StartRecording) -> str:
         if self._recorder is not None:

@@ -18,10 +18,11 @@ from rclpy.executors import Executor
 
 from amr_description.errors import ViewerError
 from amr_description.text import shorten, unwrap
+from amr_description.viewer.backend import Answer
 from amr_description.viewer.introspection import ParameterInfo
-from amr_description.viewer.requests import SetParameter
-from amr_description.viewer.ros.on_thread import on_ros_thread
+from amr_description.viewer.requests import ListParameters as ListNodeParameters, SetParameter
 from amr_description.viewer.ros.service_clients import ServiceClients, UnansweredError
+from amr_description.viewer.ros.threads import on_ros_thread
 
 _TYPES = {
     'list_parameters': ListParameters,
@@ -59,10 +60,11 @@ class ParameterClients:
         self._asking = asyncio.Lock()
         """Pages that ask two nodes at once would destroy each other's clients."""
 
-    async def all_of(self, node: str) -> tuple[ParameterInfo, ...]:
-        """Return the parameters of a node, by their names. Raises ViewerError."""
+    async def list_all(self, request: ListNodeParameters, _: str) -> Answer:
+        """Answer with the parameters of a node, by their names. Raises ViewerError."""
         async with self._asking:
-            return await self._all_of(node)
+            found = await self._all_of(request.node)
+        return Answer(f'{request.node} has {len(found)} parameters', found)
 
     async def _all_of(self, node: str) -> tuple[ParameterInfo, ...]:
         await self._connect(node)
@@ -80,11 +82,12 @@ class ParameterClients:
             for name in names
         )
 
-    async def set(self, request: SetParameter) -> ParameterInfo:
-        """Set a parameter; return what it is then. Raises ViewerError."""
+    async def set(self, request: SetParameter, _: str) -> Answer:
+        """Set a parameter; answer with what it is then. Raises ViewerError."""
         parameter = Parameter(name=request.name, value=value_of(request.kind, request.value))
         async with self._asking:
-            return await self._set(request.node, parameter)
+            found = await self._set(request.node, parameter)
+        return Answer(f'{request.node} has taken {request.name}', found)
 
     async def _set(self, node: str, parameter: Parameter) -> ParameterInfo:
         name = parameter.name

@@ -21,9 +21,10 @@ from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import fill_stamp
 from amr_description.text import shorten
+from amr_description.viewer.backend import Answer
 from amr_description.viewer.introspection import FieldInfo
-from amr_description.viewer.requests import Publish
-from amr_description.viewer.ros.on_thread import on_ros_thread
+from amr_description.viewer.requests import Definition, Publish, Unpublish
+from amr_description.viewer.ros.threads import on_ros_thread
 
 _MOST = 16
 """Topics that a page may publish on."""
@@ -76,7 +77,7 @@ class Publications:
         self._making = asyncio.Lock()
         """Two requests at once must not make two publishers on one topic of a page."""
 
-    async def publish(self, page: str, request: Publish) -> str:
+    async def publish(self, request: Publish, page: str) -> str:
         """Publish; return one line about it. Raises AmrError."""
         topic, rate = request.topic, request.rate
         self._check(topic)
@@ -105,13 +106,18 @@ class Publications:
         listeners = f'{heard} subscription{"s" * (heard != 1)}'
         return f'published {often} on {topic}, to {listeners}'
 
-    def unpublish(self, page: str, topic: str) -> str:
+    async def unpublish(self, request: Unpublish, page: str) -> str:
         """Publish no more on a topic; return one line about it."""
+        if self._end_one(page, request.topic):
+            return f'nothing more is published on {request.topic}'
+        return f'this page publishes nothing on {shorten(request.topic)}'
+
+    def _end_one(self, page: str, topic: str) -> bool:
+        """Publish no more on a topic of a page; return whether it did."""
         found = self._of.pop((page, topic), None)
-        if found is None:
-            return f'this page publishes nothing on {shorten(topic)}'
-        self._end([found])
-        return f'nothing more is published on {topic}'
+        if found is not None:
+            self._end([found])
+        return found is not None
 
     def forget(self, page: str) -> None:
         """A page has gone: what it published ends."""
@@ -168,7 +174,7 @@ class Publications:
             validate_full_topic_name(topic)
         except InvalidTopicNameException as error:
             raise ViewerError(shorten(str(error))) from None
-        self.unpublish(page, topic)
+        self._end_one(page, topic)
         publisher = await on_ros_thread(
             self._executor, lambda: self._node.create_publisher(kind, topic, _DEPTH)
         )
@@ -193,10 +199,10 @@ def _publish(send: Callable[[], None]) -> None:
         raise ViewerError('the viewer is ending') from None
 
 
-def fields_of_type(name: str) -> tuple[FieldInfo, ...]:
-    """Return the fields of the messages of a type. Raises AmrError."""
-    kind = message_type(name)
-    return _fields(layout_of(kind), kind())
+async def define(request: Definition, _: str) -> Answer:
+    """Answer with the fields of the messages of a type. Raises AmrError."""
+    kind = message_type(request.message)
+    return Answer(request.message, _fields(layout_of(kind), kind()))
 
 
 def _fields(layout: FieldGroup, example: Any) -> tuple[FieldInfo, ...]:

@@ -3,7 +3,8 @@
 """
 The connections of the viewer with one robot, and with the world of one simulator.
 
-They are created and destroyed on the ROS thread; commands are published on the server's thread.
+They are created and destroyed on the ROS thread. The server's thread has of a connection what a
+:class:`~amr_description.viewer.ros.threads.ServedRobot` has: it publishes commands.
 """
 
 from collections.abc import Callable, Mapping, Set as AbstractSet
@@ -201,6 +202,20 @@ class RobotConnection:
             self._command_zero(time)
         return Hold(motion, self.is_locked, (), self.deactivated)
 
+    def commanded_by(self, now: float) -> Commanders:
+        """
+        Return who else commands it, with a rate in whole Hz: this is sent on changes.
+
+        ``now`` is the time of a monotonic clock, s.
+        """
+        command = self.topics.command
+        rate = 0.0 if command is None else command.rate(now)
+        return Commanders(self.found.id, self.commanders, _whole(rate))
+
+    def hold_joints(self) -> None:
+        """Stop the joints that pages have moved by controllers."""
+        self.commands.hold(self.topics.positions())
+
     def release(self) -> None:
         """Hold it no more."""
         self._lock.release()
@@ -301,22 +316,6 @@ class RobotConnection:
         self.topics.watch(self._watched)
         if self.timeout is not None:
             self.set_timeout(self.timeout)
-
-
-def commanders_of(connections: Mapping[str, RobotConnection], now: float) -> list[Commanders]:
-    """
-    Return who commands each robot, with rates in whole Hz: this is sent on changes.
-
-    Args:
-        connections: By the ids of the robots.
-        now: s of a monotonic clock.
-    """
-    found = []
-    for name, each in connections.items():
-        command = each.topics.command
-        rate = 0.0 if command is None else command.rate(now)
-        found.append(Commanders(name, each.commanders, _whole(rate)))
-    return found
 
 
 def still_held(connection: RobotConnection) -> str:

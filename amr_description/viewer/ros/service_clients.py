@@ -9,7 +9,7 @@ discovered a client yet drops the response to it.
 """
 
 import asyncio
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from controller_manager_msgs.srv import (
@@ -270,38 +270,22 @@ class SimulatorClient:
                 raise
             self.world = current.world.name
 
-    async def handle(self, request: SimulatorRequest) -> str:
-        """Carry out a request; return one line about what was done. Raises ViewerError."""
-        match request:
-            case Play(type='play'):
-                return await self._set_state(SimulationState.STATE_PLAYING, 'time goes on')
-            case Play():
-                return await self._set_state(SimulationState.STATE_PAUSED, 'time stands still')
-            case Step():
-                await self._do('step_simulation', StepSimulation.Request(steps=request.steps))
-                return f'{request.steps} steps were made'
-            case Reset():
-                reset = ResetSimulation.Request
-                scope = reset.SCOPE_TIME | reset.SCOPE_STATE
-                await self._do('reset_simulation', reset(scope=scope))
-                return 'time is 0, and every robot where it was spawned'
-            case SetFactor():
-                return await self._set_factor(request.factor)
-            case Spawn():
-                return await self._spawn(request)
-            case Place():
-                turned = (0.0, 0.0, request.yaw)
-                await self._place(request.name, Transform.from_xyz_rpy(request.position, turned))
-                return f"'{request.name}' stands where it was put"
-            case ResetEntity():
-                await self._place(request.name, await self._spawn_pose(request.name))
-                return f"'{request.name}' stands where it was spawned"
-            case LoadWorld():
-                return await self._load_world(request.name)
-            case Delete():
-                await self._do('delete_entity', DeleteEntity.Request(entity=request.name))
-                return f"'{request.name}' has left the world"
-        raise ViewerError(f'a simulator is not asked {request}')
+    async def play(self, request: Play) -> str:
+        """Have time go on, or stand still; return one line about it. Raises ViewerError."""
+        if request.type == 'play':
+            return await self._set_state(SimulationState.STATE_PLAYING, 'time goes on')
+        return await self._set_state(SimulationState.STATE_PAUSED, 'time stands still')
+
+    async def step(self, request: Step) -> str:
+        """Make steps; return one line about it. Raises ViewerError."""
+        await self._do('step_simulation', StepSimulation.Request(steps=request.steps))
+        return f'{request.steps} steps were made'
+
+    async def reset(self, _: Reset) -> str:
+        """Begin anew with the same robots; return one line about it. Raises ViewerError."""
+        reset = ResetSimulation.Request
+        await self._do('reset_simulation', reset(scope=reset.SCOPE_TIME | reset.SCOPE_STATE))
+        return 'time is 0, and every robot where it was spawned'
 
     async def _set_state(self, state: int, done: str) -> str:
         request = SetSimulationState.Request(state=SimulationState(state=state))
@@ -310,7 +294,9 @@ class SimulatorClient:
             _check(response.result)
         return done
 
-    async def _set_factor(self, factor: float) -> str:
+    async def set_factor(self, request: SetFactor) -> str:
+        """Set how fast time goes; return one line about it. Raises ViewerError."""
+        factor = request.factor
         value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=factor)
         parameter = Parameter(name=_FACTOR, value=value)
         response = await self._call(
@@ -321,7 +307,8 @@ class SimulatorClient:
             raise ViewerError(result.reason)
         return f'the real-time factor is {factor:g}' if factor else 'as fast as possible'
 
-    async def _spawn(self, request: Spawn) -> str:
+    async def spawn_asked(self, request: Spawn) -> str:
+        """Spawn the robot that a page asks for; return one line about it. Raises ViewerError."""
         if request.like is None and request.urdf is None:
             raise ViewerError('a robot to spawn has a URDF, or is like another one')
         urdf = request.urdf or self._description_of(request.like or '')
@@ -338,7 +325,25 @@ class SimulatorClient:
         response = await self._do('spawn_entity', call)
         return f"'{response.entity_name}' is in the world"
 
-    async def _load_world(self, name: str) -> str:
+    async def place(self, request: Place) -> str:
+        """Put an entity elsewhere; return one line about it. Raises ViewerError."""
+        turned = (0.0, 0.0, request.yaw)
+        await self._place(request.name, Transform.from_xyz_rpy(request.position, turned))
+        return f"'{request.name}' stands where it was put"
+
+    async def reset_entity(self, request: ResetEntity) -> str:
+        """Put an entity where it was spawned; return one line about it. Raises ViewerError."""
+        await self._place(request.name, await self._spawn_pose(request.name))
+        return f"'{request.name}' stands where it was spawned"
+
+    async def delete(self, request: Delete) -> str:
+        """Remove an entity; return one line about it. Raises ViewerError."""
+        await self._do('delete_entity', DeleteEntity.Request(entity=request.name))
+        return f"'{request.name}' has left the world"
+
+    async def load_world(self, request: LoadWorld) -> str:
+        """Load another world; return one line about it. Raises ViewerError."""
+        name = request.name
         if name not in self.worlds:
             known = ', '.join(self.worlds) or 'none'
             raise ViewerError(f'there is no world {name!a} to load; there are: {known}')
@@ -374,6 +379,20 @@ class SimulatorClient:
 
     async def _call(self, service: str, request: Any, timeout: float = _CALL_TIMEOUT) -> Any:
         return await self._services.call(f'{self.name}/{service}', request, timeout)
+
+
+SIMULATOR_REQUESTS: Mapping[
+    type[SimulatorRequest], Callable[[SimulatorClient, Any], Awaitable[str]]
+] = {
+    Play: SimulatorClient.play,
+    Step: SimulatorClient.step,
+    Reset: SimulatorClient.reset,
+    SetFactor: SimulatorClient.set_factor,
+    Place: SimulatorClient.place,
+    ResetEntity: SimulatorClient.reset_entity,
+    Delete: SimulatorClient.delete,
+}
+"""What a simulator carries out by itself, by the type of the request."""
 
 
 def _check(result: Result) -> None:

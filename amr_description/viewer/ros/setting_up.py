@@ -16,18 +16,18 @@ from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.urdf import parse
 from amr_description.viewer.protocol import ControllerInfo
 from amr_description.viewer.requests import SetUp
-from amr_description.viewer.ros.robot import RobotConnection
 from amr_description.viewer.ros.service_clients import (
     activate_controllers,
     active_controllers,
     ServiceClients,
 )
+from amr_description.viewer.ros.threads import ServedRobot
 
 
 async def set_up(
     services: ServiceClients,
     robot: str,
-    like: RobotConnection,
+    like: ServedRobot,
     listed: Sequence[ControllerInfo] | None,
 ) -> str:
     """
@@ -64,7 +64,7 @@ async def set_up(
 async def _names(
     services: ServiceClients,
     robot: str,
-    like: RobotConnection,
+    like: ServedRobot,
     listed: Sequence[ControllerInfo] | None,
 ) -> Sequence[str] | None:
     """Return the active controllers, in the order to activate them in; None: unknown."""
@@ -82,7 +82,7 @@ def _active(listed: Iterable[ControllerInfo]) -> list[str]:
     return [each.name for each in listed if each.state == 'active'][::-1]
 
 
-def _manager_of(robot: str, like: RobotConnection) -> str | None:
+def _manager_of(robot: str, like: ServedRobot) -> str | None:
     """Return the controller manager that a robot like another one has; None: it has none."""
     manager = like.found.manager
     if manager is not None:

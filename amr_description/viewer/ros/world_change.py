@@ -15,13 +15,13 @@ from amr_description.errors import ViewerError
 from amr_description.viewer.entities import SpawnedEntity
 from amr_description.viewer.protocol import RobotInfo
 from amr_description.viewer.requests import LoadWorld, Play
-from amr_description.viewer.ros.robot import RobotConnection
 from amr_description.viewer.ros.service_clients import (
     activate_controllers,
     active_controllers,
     ServiceClients,
     SimulatorClient,
 )
+from amr_description.viewer.ros.threads import ServedRobot
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ def residents_of(
     simulator: str,
     spawned: Iterable[SpawnedEntity],
     robots: Iterable[RobotInfo],
-    connections: Mapping[str, RobotConnection],
+    connections: Mapping[str, ServedRobot],
 ) -> list[Resident]:
     """
     Return what is spawned again in another world of a simulator.
@@ -74,7 +74,7 @@ async def change_world(
         if each.manager is not None
     }
     was_playing = simulator.state == 'playing'
-    done = await simulator.handle(request)
+    done = await simulator.load_world(request)
     staying = [each for each in residents if each.entity in poses]
     troubles = []
     for each in [*staying]:
@@ -85,7 +85,7 @@ async def change_world(
             staying.remove(each)
             troubles.append(str(error))
     kind = 'play' if was_playing else 'pause'
-    await simulator.handle(Play(kind, request.id, request.simulator))
+    await simulator.play(Play(kind, request.id, request.simulator))
     for each in staying:
         if each.manager is not None:
             try:

@@ -54,7 +54,11 @@ class Told:
     def __init__(self):
         self.messages = {}
 
-    def publish_now(self, subject, message):
+    @property
+    def pages(self):
+        return self
+
+    def publish(self, subject, message):
         self.messages[type(message), subject] = message
 
     def send_to(self, part, message):
@@ -87,7 +91,7 @@ def backend(opened):
 
 
 def ask(backend, request):
-    return asyncio.run(backend.handle(request, 'page 1'))
+    return asyncio.run(backend.handlers.carry_out(request, 'page 1'))
 
 
 class Pages:
@@ -146,7 +150,7 @@ def test_the_page_is_told_of_the_bag_and_of_its_robot(backend, drive):
 
 def test_samples_are_those_of_the_time_that_is_shown(backend):
     async def seen(seconds):
-        await backend.handle(Seek(1, seconds), 'page 1')
+        await backend.handlers.carry_out(Seek(1, seconds), 'page 1')
         channel = ('sensor', '/scan')
         async with asyncio.timeout(PATIENCE):
             while not (samples := backend.take_samples({channel})):
@@ -186,7 +190,7 @@ def test_a_series_that_nobody_waits_for_is_read_no_further(backend, monkeypatch,
 
     async def leave():
         request = ReadSeries(1, '/odom', 'pose.pose.position.x')
-        wish = asyncio.create_task(backend.handle(request, 'page 2'))
+        wish = asyncio.create_task(backend.handlers.carry_out(request, 'page 2'))
         if how == 'page has gone':
             assert await asyncio.to_thread(begun.wait, PATIENCE)
             backend.forget('page 2')
@@ -233,13 +237,13 @@ def test_trees_that_are_the_same_have_one_layout():
 
 def test_it_plays_to_its_end_and_from_its_begin(backend):
     async def play():
-        await backend.handle(Seek(1, LENGTH - 0.5), 'page 1')
-        await backend.handle(Playback(2, True, 100.0), 'page 1')
+        await backend.handlers.carry_out(Seek(1, LENGTH - 0.5), 'page 1')
+        await backend.handlers.carry_out(Playback(2, True, 100.0), 'page 1')
         async with asyncio.timeout(PATIENCE):
             while backend.server.last(Playhead) != Playhead(LENGTH, False, 100.0):
                 await asyncio.sleep(0.001)
                 backend.take_state()
-        await backend.handle(Playback(3, True, 0.001), 'page 1')
+        await backend.handlers.carry_out(Playback(3, True, 0.001), 'page 1')
         backend.take_state()
 
     backend.take_state()

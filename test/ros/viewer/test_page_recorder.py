@@ -19,8 +19,8 @@ from amr_description.bag.mcap_writer import BagWriter
 from amr_description.bag.reader import BagReader
 from amr_description.errors import ViewerError
 from amr_description.viewer.bags import StartRecording, StopRecording
-from amr_description.viewer.ros.on_thread import on_ros_thread
 from amr_description.viewer.ros.page_recorder import PageRecorder
+from amr_description.viewer.ros.threads import on_ros_thread
 
 
 @contextmanager
@@ -61,15 +61,15 @@ def test_while_a_bag_is_completed_the_ros_thread_is_free(node, tmp_path, monkeyp
         recorder = PageRecorder(node, executor, tmp_path, told.append)
 
         async def record():
-            await recorder.handle(StartRecording(1, ('/chatter',)))
+            await recorder.start(StartRecording(1, ('/chatter',)), 'page 1')
             await asyncio.to_thread(until, publisher.get_subscription_count)
             publisher.publish(String(data='hello'))
             assert await asyncio.to_thread(is_written.wait, PATIENCE)
-            stopping = asyncio.create_task(recorder.handle(StopRecording(2)))
+            stopping = asyncio.create_task(recorder.stop(StopRecording(2), 'page 1'))
             await asyncio.to_thread(until, lambda: not publisher.get_subscription_count())
             assert await on_ros_thread(executor, lambda: 'free') == 'free'
             with pytest.raises(ViewerError, match='is still being written'):
-                await recorder.handle(StartRecording(3, ()))
+                await recorder.start(StartRecording(3, ()), 'page 1')
             assert told[-1].active
             goes_on.set()
             return await stopping
@@ -93,9 +93,9 @@ def test_types_are_left_out_and_the_room_is_told(node, tmp_path):
         assert (recorder.status.folder, recorder.status.free > 0) == (str(folder), True)
 
         async def record():
-            await recorder.handle(StartRecording(1, (), ('sensor_msgs/msg/Image',)))
+            await recorder.start(StartRecording(1, (), ('sensor_msgs/msg/Image',)), 'page 1')
             await asyncio.to_thread(until, publishers[0].get_subscription_count)
-            return await recorder.handle(StopRecording(2))
+            return await recorder.stop(StopRecording(2), 'page 1')
 
         asyncio.run(record())
         assert publishers[1].get_subscription_count() == 0

@@ -20,7 +20,7 @@ from support.waiting import until
 from amr_description.errors import ViewerError
 from amr_description.ros import service_calls
 from amr_description.viewer.navigation import Navigator
-from amr_description.viewer.requests import SetGoal, SetInitialPose
+from amr_description.viewer.requests import CancelGoal, SetGoal, SetInitialPose
 from amr_description.viewer.ros import goals
 from amr_description.viewer.ros.goals import Goals
 
@@ -145,11 +145,14 @@ def test_a_server_that_is_there_is_asked_though_its_client_is_never_ready(graph,
 def test_a_goal_is_cancelled(graph):
     graph.give()
     until(lambda: graph.server.goals)
-    assert graph.run(graph.goals.cancel('/a')) == '/a/navigate_to_pose cancels the goal'
+    assert (
+        graph.run(graph.goals.cancel(CancelGoal(1, '/a'), 'page 1'))
+        == '/a/navigate_to_pose cancels the goal'
+    )
     graph.server.ends.set()
     assert graph.is_told(state='cancelled').text == ''
     with pytest.raises(ViewerError, match='no page has given /a a goal that it is after'):
-        graph.run(graph.goals.cancel('/a'))
+        graph.run(graph.goals.cancel(CancelGoal(1, '/a'), 'page 1'))
 
 
 def test_stop_cancels_the_goals_of_the_robots_that_it_holds(graph):
@@ -170,7 +173,7 @@ def test_what_the_server_refuses_is_refused(graph):
     graph.give()
     until(lambda: graph.server.goals)
     with pytest.raises(ViewerError, match='does not cancel the goal'):
-        graph.run(graph.goals.cancel('/a'))
+        graph.run(graph.goals.cancel(CancelGoal(1, '/a'), 'page 1'))
 
 
 class Slow:

@@ -22,11 +22,16 @@ from tf2_msgs.msg import TFMessage
 from amr_description.errors import AmrError
 from amr_description.launch_log import LAUNCH_LOG
 from amr_description.ros.qos import TF_STATIC
-from amr_description.viewer.requests import Publish, SetParameter
+from amr_description.viewer.requests import (
+    Definition,
+    ListParameters,
+    Publish,
+    SetParameter,
+)
 from amr_description.viewer.ros import health
 from amr_description.viewer.ros.introspection import Introspection
 from amr_description.viewer.ros.parameters import ParameterClients
-from amr_description.viewer.ros.publications import fields_of_type, Publications
+from amr_description.viewer.ros.publications import define, Publications
 from amr_description.viewer.ros.service_clients import ServiceClients
 
 
@@ -221,12 +226,15 @@ def test_what_the_bring_up_warned_of_before_is_there(ros, tmp_path, monkeypatch)
 
 def test_parameters_are_listed_with_bounds_and_set(parameters):
     async def use():
-        listed = {each.name: each for each in await parameters.all_of('/robot1/other')}
-        return listed, await parameters.set(
-            SetParameter(1, '/robot1/other', 'speed', 'double', 1.5)
-        )
+        node = '/robot1/other'
+        listed = await parameters.list_all(ListParameters(1, node), 'page 1')
+        request = SetParameter(2, node, 'speed', 'double', 1.5)
+        return listed, await parameters.set(request, 'page 1')
 
-    listed, speed = asyncio.run(use())
+    answer, taken = asyncio.run(use())
+    assert answer.message == f'/robot1/other has {len(answer.data)} parameters'
+    assert taken.message == '/robot1/other has taken speed'
+    listed, speed = {each.name: each for each in answer.data}, taken.data
     before = listed['speed']
     assert (before.value, before.lower, before.upper, before.step) == (1.0, 0.0, 2.0, 0.5)
     assert (before.kind, before.description) == ('double', 'how fast')
@@ -239,9 +247,10 @@ def test_parameters_are_listed_with_bounds_and_set(parameters):
 def test_pages_may_ask_two_nodes_at_once(parameters):
     async def use():
         nodes = ('/robot1/other', '/viewer')
-        return await asyncio.gather(*map(parameters.all_of, nodes))
+        requests = [ListParameters(1, each) for each in nodes]
+        return await asyncio.gather(*(parameters.list_all(each, 'page 1') for each in requests))
 
-    other, viewer = ({each.name for each in listed} for listed in asyncio.run(use()))
+    other, viewer = ({each.name for each in listed.data} for listed in asyncio.run(use()))
     assert {'speed', 'use_sim_time'} <= other
     assert 'use_sim_time' in viewer
     assert 'speed' not in viewer
@@ -261,7 +270,7 @@ def test_pages_may_ask_two_nodes_at_once(parameters):
 )
 def test_the_reason_of_a_refusal_is_said_in_one_line(parameters, name, kind, value, reason):
     with pytest.raises(AmrError) as refused:
-        asyncio.run(parameters.set(SetParameter(1, '/robot1/other', name, kind, value)))
+        asyncio.run(parameters.set(SetParameter(1, '/robot1/other', name, kind, value), 'page 1'))
     assert str(refused.value).startswith(reason)
     assert '\n' not in str(refused.value)
 
@@ -310,14 +319,14 @@ def test_what_is_published_at_a_rate_ends_with_its_page_or_a_stop(ros, heard):
 
     async def use():
         values = {'linear': {'x': 0.5}}
-        await page.publications.publish('page 1', publish(values=values, rate=100.0))
+        await page.publications.publish(publish(values=values, rate=100.0), 'page 1')
         await come(lambda: len(heard) > 5)
         page.is_held = True
         with pytest.raises(AmrError, match='a stop holds'):
-            await page.publications.publish('page 1', publish())
+            await page.publications.publish(publish(), 'page 1')
         await come(lambda: all(each.timer is None for each in page.publications._of.values()))
         page.is_held = False
-        await page.publications.publish('page 1', publish(values=values, rate=100.0))
+        await page.publications.publish(publish(values=values, rate=100.0), 'page 1')
         page.publications.forget('page 1')
         assert page.publications._of == {}
 
@@ -331,7 +340,7 @@ def test_what_happens_while_the_publisher_is_made_counts(ros, heard, happening):
     page, (_, other, _) = Page(ros), ros
 
     async def use():
-        asked = asyncio.create_task(page.publications.publish('page 1', publish(rate=100.0)))
+        asked = asyncio.create_task(page.publications.publish(publish(rate=100.0), 'page 1'))
         await asyncio.sleep(0)  # it has been asked for, and waits for its publisher
         if happening == 'stop':
             page.is_held = True
@@ -351,7 +360,7 @@ def test_two_requests_at_once_make_one_publisher(ros, heard):
 
     async def use():
         await come(lambda: other.count_publishers('/cmd') == 0)  # those of other tests have gone
-        requests = [page.publications.publish('page 1', publish()) for _ in range(2)]
+        requests = [page.publications.publish(publish(), 'page 1') for _ in range(2)]
         await asyncio.gather(*requests)
         assert other.count_publishers('/cmd') == 1
         page.publications.forget('page 1')
@@ -369,7 +378,7 @@ def test_a_stamp_of_now_is_that_of_the_clock_that_robots_have(ros):
     async def use():
         fields = {'topic': '/stamped', 'message': 'geometry_msgs/msg/TwistStamped'}
         values = {'header': {'stamp': 'now'}}
-        await page.publications.publish('page 1', publish(**fields, values=values, rate=100.0))
+        await page.publications.publish(publish(**fields, values=values, rate=100.0), 'page 1')
         await come(lambda: heard)
         page.publications.forget('page 1')
 
@@ -391,17 +400,21 @@ def test_a_stamp_of_now_is_that_of_the_clock_that_robots_have(ros):
 def test_what_cannot_be_published_is_refused(ros, fields, reason):
     page = Page(ros)
     with pytest.raises(AmrError, match=reason) as refused:
-        asyncio.run(page.publications.publish('page 1', publish(**fields)))
+        asyncio.run(page.publications.publish(publish(**fields), 'page 1'))
     assert '\n' not in str(refused.value)
     assert page.logged == []
 
 
+def fields_of(kind):
+    return asyncio.run(define(Definition(1, kind), 'page 1')).data
+
+
 def test_a_form_has_the_fields_of_the_message_with_their_defaults():
-    header, name, position, *_ = fields_of_type('sensor_msgs/msg/JointState')
+    header, name, position, *_ = fields_of('sensor_msgs/msg/JointState')
     assert [each.name for each in header.fields] == ['stamp', 'frame_id']
     assert (name.kind, name.length, position.kind, position.length) == ('string', 0, 'double', 0)
     (orientation,) = [
-        each for each in fields_of_type('geometry_msgs/msg/Pose') if each.name == 'orientation'
+        each for each in fields_of('geometry_msgs/msg/Pose') if each.name == 'orientation'
     ]
     assert [each.value for each in orientation.fields] == [0.0, 0.0, 0.0, 1.0]
     assert not any(math.isnan(each.value) for each in orientation.fields)

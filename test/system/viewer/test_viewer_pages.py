@@ -4,6 +4,7 @@
 
 import asyncio
 from contextlib import contextmanager
+from functools import partial
 import gc
 from queue import SimpleQueue
 import re
@@ -30,6 +31,7 @@ class Backend:
     """One robot; records the calls."""
 
     def __init__(self):
+        self.handlers = self
         self.calls = []
         self.joints_are_moved = False
         self.new = ()
@@ -77,7 +79,7 @@ class Backend:
     def set_joints(self, robot, positions):
         self.calls.append(positions)
 
-    async def handle(self, request, page):
+    async def carry_out(self, request, page):
         if request.simulator == 'broken':
             raise ZeroDivisionError('oh')
         return Answer(f'{request.type} is done')
@@ -152,7 +154,7 @@ def test_a_page_that_does_not_read_gets_no_states_and_others_get_all(backend, se
     with deaf(server.url), Page(server.url) as page:
         backend.frame = LARGE
         page.wait(lambda: len(page.states) > 60)  # 30 MB: far more than sockets hold
-        buffered = {each.name: each.buffered for each in server._pages._pages.values()}
+        buffered = {each.name: each.buffered for each in server.pages._pages.values()}
         assert buffered.keys() == {'page 1', 'page 2'}
         assert 0 < buffered['page 1'] <= len(LARGE) + 32 * 1024
 
@@ -173,10 +175,11 @@ def test_no_old_states_wait_for_a_page_that_reads_late(backend):
 def test_a_page_with_too_large_a_write_buffer_is_disconnected(server):
     with deaf(server.url), Page(server.url) as page:
         for count in range(30):  # 120 MB
-            server.publish('all', Notice('info', str(count) + 'x' * 4_000_000))
+            notice = Notice('info', str(count) + 'x' * 4_000_000)
+            server.call(partial(server.pages.publish, 'all', notice))
             page.wait(lambda count=count: len(page.of('notice')) > count)
         page.ask('play', 1, simulator='/s')
-        assert [*server._pages._pages] == ['page 2']
+        assert [*server.pages._pages] == ['page 2']
 
 
 def test_the_backend_is_open_while_there_are_pages(backend, server):
@@ -262,12 +265,12 @@ def test_a_page_that_does_not_read_makes_no_queue_of_pictures():
         page.wait(lambda: len(camera.calls) > 1)
         page.say('watch', parts=[], topics=['/image'])
         page.wait(lambda: len(page.states) > 40)  # 20 MB
-        pages = {each.name: each for each in server._pages._pages.values()}
+        pages = {each.name: each for each in server.pages._pages.values()}
         behind = pages['page 1']
         assert 0 < behind.buffered <= len(LARGE) + 32 * 1024
         assert len(behind.waiting) == 1
         assert int.from_bytes(behind.waiting['sensor', '/image'][:4]) > 30
-        assert len(server._pages._samples) == 1
+        assert len(server.pages._samples) == 1
     assert server.logged.empty()
 
 
@@ -298,8 +301,8 @@ def test_a_late_page_gets_the_latched_message_of_each_subject(server):
     with Page(server.url) as first:
         first.wait(lambda: first.last('hello'))  # else it would be a late one, too
         for subject, client in (('/a', 'x'), ('/b', 'y'), ('/a', None), ('/c', 'z')):
-            server.publish(subject, Driver(subject, client))
-        server.retain(['/a', '/b'])
+            server.call(partial(server.pages.publish, subject, Driver(subject, client)))
+        server.call(partial(server.pages.retain, ['/a', '/b']))
         first.wait(lambda: len(first.of('driver')) == 4)
         with Page(server.url) as late:
             late.ask('play', 1, simulator='/s')
@@ -312,7 +315,7 @@ def test_an_equal_message_is_not_published_again(server):
     with Page(server.url) as page:
         page.wait(lambda: page.last('hello'))  # a later one is sent the latest alone
         for client in ('x', 'x', 'y', 'y', 'x'):
-            server.publish('/', Driver('/', client))
+            server.call(partial(server.pages.publish, '/', Driver('/', client)))
         page.wait(lambda: len(page.of('driver')) == 3)
         page.ask('play', 1, simulator='/s')
         assert [each['client'] for each in page.of('driver')] == ['x', 'y', 'x']
@@ -411,7 +414,7 @@ def test_a_server_that_ends_waits_for_no_answer_and_leaves_no_task(backend, monk
         finally:  # as the real backend does
             tasks.append(asyncio.get_running_loop().create_task(asyncio.sleep(PATIENCE)))
 
-    monkeypatch.setattr(backend, 'handle', never_answer)
+    monkeypatch.setattr(backend, 'carry_out', never_answer)
     with serving(backend) as server, Page(server.url) as page:
         page.say('play', id=1, simulator='/s')
         assert asked.wait(PATIENCE)

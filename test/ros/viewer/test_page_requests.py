@@ -1,0 +1,45 @@
+# Copyright 2026 The amr_description authors
+# SPDX-License-Identifier: Apache-2.0
+"""What carries out the requests of pages over a ROS graph: none is forgotten."""
+
+import asyncio
+from typing import get_args
+
+import pytest
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+
+from amr_description.errors import ViewerError
+from amr_description.viewer.bags import Playback, ReadOverview, ReadSeries, Seek
+from amr_description.viewer.requests import Request, Step
+from amr_description.viewer.ros.backend import GraphBackend
+
+OF_A_BAG = {Playback, ReadOverview, ReadSeries, Seek}
+
+
+@pytest.fixture
+def backend(tmp_path):
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    node = rclpy.create_node('viewer', context=context)
+    executor = SingleThreadedExecutor(context=context)
+    yield GraphBackend(node, executor, pytest.fail, pytest.fail, tmp_path)
+    executor.shutdown()
+    node.destroy_node()
+    context.shutdown()
+
+
+def test_each_request_has_its_handler_but_those_of_a_bag_that_is_shown(backend):
+    assert set(get_args(Request)) - backend.handlers.kinds == OF_A_BAG
+
+
+@pytest.mark.parametrize(
+    ('request_', 'reason'),
+    [
+        (Seek(1, 0.5), r'no bag is shown here; `viewer --bag PATH` shows one'),
+        (Step(1, '/sim', 3), "there is no simulator '/sim'; there are: none"),
+    ],
+)
+def test_what_cannot_be_carried_out_is_refused(backend, request_, reason):
+    with pytest.raises(ViewerError, match=reason):
+        asyncio.run(backend.handlers.carry_out(request_, 'page 1'))
