@@ -1,7 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Finds whether a robot is spawned inside something else, and the height at which it is free.
+Finds whether a robot is spawned inside something else, the height at which it is free, and how far
+it would drop.
 
 Its contacts would throw it out: measured, a robot 2 mm inside the ground comes up by 0.4 mm, one
 10 mm inside hops by 13 mm, and one 50 mm inside by 420 mm.
@@ -9,8 +10,10 @@ Its contacts would throw it out: measured, a robot 2 mm inside the ground comes 
 
 import copy
 from dataclasses import dataclass, replace
+import math
 
 import mujoco
+import numpy as np
 
 from amr_description.errors import SpawnError
 from amr_description.sim.engine import Engine
@@ -20,6 +23,12 @@ TOLERANCE = 0.002
 """m; a smaller overlap is accepted."""
 
 _MAX_LIFTS = 50
+_DEEPEST_DROP = 1.0
+"""m; a robot that is higher above everything is not meant to stand on it."""
+_TOUCHING = 1e-6
+"""m."""
+_NO_DISTANCE = (mujoco.mjtGeom.mjGEOM_HFIELD, mujoco.mjtGeom.mjGEOM_SDF)
+"""Shapes to which MuJoCo measures no distance."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +63,15 @@ def find_overlap(engine: Engine, robot: str) -> Overlap | None:
     if found is None or found.is_robot:
         return found
     return replace(found, lift=probe.lift())
+
+
+def find_drop(engine: Engine, robot: str) -> float:
+    """
+    Return how much lower a robot touches what is below it, m; nothing is changed.
+
+    0: it touches something, stands fixed, or has nothing below it within :data:`_DEEPEST_DROP`.
+    """
+    return _OverlapProbe(engine, robot).drop()
 
 
 class _OverlapProbe:
@@ -98,17 +116,66 @@ class _OverlapProbe:
             lifted += step
         return None
 
+    def drop(self) -> float:
+        """Return how much lower it touches something, m; see :func:`find_drop`."""
+        model = self._model
+        if not any(self._is_free(body) for body in self._roots()):
+            return 0.0
+        lowered = 0.0
+        for _ in range(_MAX_LIFTS):
+            mujoco.mj_kinematics(model, self._data)
+            # Straight down it is at least as far as to the nearest point of anything.
+            distance = self._distance()
+            if distance < _TOUCHING:
+                return lowered
+            lowered += distance
+            if lowered >= _DEEPEST_DROP:
+                return 0.0
+            self._raise(-distance)
+        return lowered
+
+    def _distance(self) -> float:
+        """Return how far the robot is from the nearest shape that it may touch, m."""
+        model, data = self._model, self._data
+        own = np.array([self._is_own(self._body_of(geom)) for geom in range(model.ngeom)], bool)
+        if np.isin(model.geom_type[~own], _NO_DISTANCE).any():
+            return _DEEPEST_DROP
+        may = model.geom_contype[:, None] & model.geom_conaffinity
+        mine, others = np.nonzero((may | may.T) & (own[:, None] & ~own))
+        apart = np.linalg.norm(data.geom_xpos[mine] - data.geom_xpos[others], axis=1)
+        # At least so far; a plane has no bound, and is asked first.
+        apart -= model.geom_rbound[mine] + model.geom_rbound[others]
+        apart[model.geom_rbound[others] == 0.0] = -math.inf
+        nearest = _DEEPEST_DROP
+        for pair in np.argsort(apart, kind='stable').tolist():
+            if apart[pair] >= nearest:
+                break
+            geoms = int(mine[pair]), int(others[pair])
+            nearest = min(
+                nearest, mujoco.mj_geomDistance(model, data, *geoms, _DEEPEST_DROP, None)
+            )
+        return nearest
+
     def _raise(self, height: float) -> None:
         model = self._model
-        for body in range(1, model.nbody):
-            if model.body_parentid[body] or not self._is_own(model.body(body).name):
-                continue
-            if model.body_jntnum[body] and (
-                model.jnt_type[model.body_jntadr[body]] == mujoco.mjtJoint.mjJNT_FREE
-            ):
+        for body in self._roots():
+            if self._is_free(body):
                 self._data.qpos[model.jnt_qposadr[model.body_jntadr[body]] + 2] += height
             else:
                 model.body_pos[body, 2] += height
+
+    def _roots(self) -> list[int]:
+        """Return the bodies of the robot that hang on none."""
+        model = self._model
+        roots = np.flatnonzero(model.body_parentid == 0).tolist()
+        return [body for body in roots if body and self._is_own(model.body(body).name)]
+
+    def _is_free(self, body: int) -> bool:
+        model = self._model
+        return bool(
+            model.body_jntnum[body]
+            and model.jnt_type[model.body_jntadr[body]] == mujoco.mjtJoint.mjJNT_FREE
+        )
 
     def _body_of(self, geom: int) -> str:
         return self._model.body(int(self._model.geom_bodyid[geom])).name

@@ -28,7 +28,7 @@ from amr_description.model.wheels import Rollers
 from amr_description.sim.engine import compiler_message, compiler_warnings, Engine, LONGEST_STEP
 from amr_description.sim.faults import collect_mujoco_warnings, FaultMonitor
 from amr_description.sim.gazebo_physics import wheel_geom_name
-from amr_description.sim.overlap import find_overlap
+from amr_description.sim.overlap import find_drop, find_overlap, TOLERANCE
 from amr_description.sim.rays import RayScene
 from amr_description.sim.robot_spec import build_robot, RobotSpec
 from amr_description.sim.robot_view import RobotView
@@ -213,7 +213,8 @@ class MujocoWorld:
                 :func:`~amr_description.sim.spawning.read_description` made of it.
             pose: Transform from the robot's root link to the world.
             lift: Whether a robot that would be inside the ground, or another static body, is
-                lifted until it is free, which is logged.
+                lifted until it is free, and one at z = 0 that would drop is put onto what is
+                below it; either is logged.
             rollers: Of mecanum and omni wheels, by joint, of which the description does not tell.
 
         Returns:
@@ -229,30 +230,56 @@ class MujocoWorld:
         model = build_robot(description, self._log, strict=self._strict, named_rollers=rollers)
         contacts = self._contacts_of(description, model)
         spec = self._specs.setdefault(description.text, model.spec)
-        robot = description
-
-        def put(pose: Transform) -> RobotView:
-            self._add_rollers(name, model)
-            self._attach(name, spec, pose, contacts)
-            others = self._log, self._seed, self.ray_scene
-            return RobotView(self.engine, name, robot, model, pose, *others)
-
-        view = put(pose)
-        overlap = find_overlap(self.engine, name)
-        if overlap is not None:
-            self._detach(name)
-            if not lift or overlap.lift is None:
-                raise overlap.error(name)
+        self._add_rollers(name, model)
+        self._attach(name, spec, pose, contacts)
+        # A view sets the initial positions of the joints, which a free height follows from.
+        others = self._log, self._seed, self.ray_scene
+        view = RobotView(self.engine, name, description, model, pose, *others)
+        if height := self._height(name, pose, lift=lift):
             x, y, z = pose.translation
-            view = put(Transform((x, y, z + overlap.lift), pose.rotation))
-            self._log(
-                Severity.INFO,
-                f"'{name}' is lifted by {overlap.lift:.3f} m: its link '{overlap.link}' would be "
-                f'{overlap.depth:.3f} m deep in {overlap.other}',
-            )
+            pose = Transform((x, y, z + height), pose.rotation)
+            self._put(name, pose)
+            view = RobotView(self.engine, name, description, model, pose, *others)
         self._robots[name] = view
         self._index_roots()
         return view
+
+    def _height(self, name: str, pose: Transform, *, lift: bool) -> float:
+        """
+        Return how much higher than it has just been put a robot is to be, m.
+
+        Raises SpawnError, without the robot: it is inside what it may not be lifted from.
+        """
+        overlap = find_overlap(self.engine, name)
+        if overlap is None:
+            on_ground = lift and pose.translation[2] == 0.0
+            drop = find_drop(self.engine, name) if on_ground else 0.0
+            if drop <= TOLERANCE:
+                return 0.0
+            self._log(
+                Severity.INFO,
+                f"'{name}' is put {drop:.3f} m lower, where it stands: at z = 0 it would drop",
+            )
+            return -drop
+        if not lift or overlap.lift is None:
+            self._detach(name)
+            raise overlap.error(name)
+        self._log(
+            Severity.INFO,
+            f"'{name}' is lifted by {overlap.lift:.3f} m: its link '{overlap.link}' would be "
+            f'{overlap.depth:.3f} m deep in {overlap.other}',
+        )
+        return overlap.lift
+
+    def _put(self, name: str, pose: Transform) -> None:
+        """Put a robot that has just been attached elsewhere; its meshes stay as they are."""
+        self.engine.spec.frame(name).pos = pose.translation
+        self._recompile()
+        model, data = self.engine.model, self.engine.data
+        for joint in np.flatnonzero(model.jnt_type == mujoco.mjtJoint.mjJNT_FREE).tolist():
+            if model.joint(joint).name.startswith(f'{name}/'):
+                begin = model.jnt_qposadr[joint]
+                data.qpos[begin : begin + 7] = model.qpos0[begin : begin + 7]
 
     def remove(self, name: str) -> None:
         """Remove a robot; its view becomes invalid. Raises SimulationError for an unknown name."""

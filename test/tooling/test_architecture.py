@@ -43,14 +43,15 @@ FEW_LINES = 80
 # And a mux of velocity commands in the chain.
 # Vendors' files name passthrough controllers. What the page's node does on which of its two
 # threads is said by types.
+# A robot without a height stands on what is below it.
 BUDGETS = {
     'modules': 836,
-    'code lines': 96_346,
+    'code lines': 96_410,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_466,
+    'code lines of helpers in test files': 26_476,
 }
 
 BASE = {

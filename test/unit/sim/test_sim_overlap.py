@@ -141,3 +141,50 @@ def test_no_robot_is_lifted_out_of_another(world):
     world.spawn('one', AMR)
     with pytest.raises(SpawnError, match='spawned inside link .* of robot .*; spawn it elsewhere'):
         world.spawn('two', AMR, lift=True)
+
+
+@pytest.mark.parametrize(
+    ('root', 'place', 'height'),
+    [
+        (0.059, at(0, 0, 0), -0.059),  # m; the root link below the wheels
+        (0.0015, at(0, 0, 0), 0.0),  # as it is accepted inside something
+        (0.059, at(0, 0, 0.01), 0.01),  # a height that is asked for
+        (1.5, at(0, 0, 0), 0.0),  # that flies
+        (0.7, at(0, -5.2, 0), -0.1),  # onto the carton, which is 0.6 m high
+    ],
+)
+def test_a_robot_without_a_height_is_put_onto_what_is_below_it(things, root, place, height):
+    said = []
+    world = MujocoWorld(things, log=lambda severity, text, **_: said.append(text))
+    raised = (
+        '<robot name="raised"><link name="root"/><joint name="lift" type="fixed">'
+        f'<parent link="root"/><child link="box"/><origin xyz="0 0 {root + 0.1}"/></joint>'
+        '<link name="box"><inertial><mass value="1"/>'
+        '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
+        '<collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link></robot>'
+    )
+    robot = world.spawn('raised', raised, place, lift=True)
+    lowest = robot.pose('root').translation[2]
+    assert lowest == pytest.approx(height, abs=1e-5)
+    lowered = place.translation[2] - lowest
+    expected = [f"'raised' is put {lowered:.3f} m lower, where it stands: at z = 0 it would drop"]
+    assert said == (expected if lowered > TOLERANCE else [])
+    world.reset()
+    assert robot.pose('root').translation[2] == lowest
+
+
+def test_a_robot_that_is_put_elsewhere_keeps_its_meshes_and_leaves_the_others(world, things):
+    """Bit by bit as one that was spawned at that height; what moves goes on as it did."""
+    alone = MujocoWorld(things)
+    for each, height in ((world, -0.1), (alone, 0.0)):
+        first = each.spawn('first', AMR, at(2.0, 2.0, 0.0))
+        first.joints([*LEFT, *RIGHT]).command('velocity', [5.0, 5.0, 3.0, 3.0])
+        each.step(50)
+        each.spawn('second', AMR, at(0.0, 0.0, height), lift=True)
+    lifted = world.robot('second').pose('base_footprint').translation[2]
+    assert lifted == pytest.approx(0.0, abs=TOLERANCE)
+    assert world.robot('second').spawn_pose.translation[2] == lifted
+    for each in (world, alone):
+        each.step(50)
+    first, expected = (each.robot('first').pose('base_footprint') for each in (world, alone))
+    assert first == expected
