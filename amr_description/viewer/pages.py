@@ -7,8 +7,9 @@ Nothing waits for a page: a frame that is sent goes to the write buffer of its c
 gets no state while its buffer holds anything, so the states that it gets are never old (the
 system's own send buffer is kept small, see ``server``). Nor does it get a sample: the newest of
 each topic waits for it, and replaces the one that waited before; plotted values wait one after the
-other, in bounded memory, and the oldest are dropped. It is disconnected when its buffer grows too
-large, and by websockets when it does not answer pings.
+other, in bounded memory, and the oldest are dropped. Of messages that say how something is, too,
+the newest waits. It is disconnected when its buffer grows too large, and by websockets when it
+does not answer pings.
 """
 
 from collections import deque
@@ -19,7 +20,7 @@ from websockets.asyncio.server import ServerConnection
 
 from amr_description.viewer.backend import Watched
 from amr_description.viewer.encoding import encode
-from amr_description.viewer.protocol import Channel, ServerMessage
+from amr_description.viewer.protocol import Channel, REPLACED, ServerMessage
 from amr_description.viewer.requests import Part
 from amr_description.viewer.samples import Sample
 
@@ -42,6 +43,8 @@ class Page:
         """What it shows."""
         self.waiting: dict[tuple[Channel, str], bytes] = {}
         """The newest sample of each channel that was not sent yet."""
+        self._messages: dict[tuple[str, str], str] = {}
+        """(type, subject) -> the newest text frame that says how something is, not sent yet."""
         self._values: deque[tuple[str, bytes]] = deque()
         """Samples of plotted values, with their topics, that were not sent yet."""
         self._queued = 0
@@ -56,6 +59,16 @@ class Page:
         broadcast([self.connection], frame)
         if self.buffered > _LARGEST_BUFFER:
             self.connection.transport.abort()
+
+    def keep(self, key: tuple[str, str], frame: str) -> None:
+        """Send a text frame as soon as the write buffer is empty; a newer one replaces it."""
+        self._messages[key] = frame
+        self.send_messages()
+
+    def send_messages(self) -> None:
+        """Send the messages that wait, as long as the write buffer is empty."""
+        while self._messages and not self.buffered:
+            self.send(self._messages.pop(next(iter(self._messages))))
 
     def send_samples(self) -> None:
         """Send what waits, as long as the write buffer is empty."""
@@ -148,16 +161,14 @@ class Pages:
         self._pages.pop(page.name, None)
 
     def send_message(self, message: ServerMessage) -> None:
-        """Send a message to the pages that are connected now."""
-        self._send(encode(message))
+        """Send a message, about nothing that has a name, to the pages that are connected now."""
+        self._send(message, '', encode(message), self._pages.values())
 
     def send_to(self, part: Part, message: ServerMessage) -> None:
         """Send a message to the pages that watch a part."""
-        frame: str | None = None
-        for page in [*self._pages.values()]:
-            if part in page.watched.parts:
-                frame = encode(message) if frame is None else frame
-                page.send(frame)
+        watching = [each for each in self._pages.values() if part in each.watched.parts]
+        if watching:
+            self._send(message, '', encode(message), watching)
 
     def publish(self, subject: str, message: ServerMessage) -> None:
         """
@@ -173,7 +184,7 @@ class Pages:
         key, frame = (message.type, subject), encode(message)
         if self._latched.get(key) != frame:
             self._latched[key] = frame
-            self._send(frame)
+            self._send(message, subject, frame, self._pages.values())
 
     def retain(self, subjects: Iterable[str]) -> None:
         """Drop the latched messages about all other subjects; they are gone."""
@@ -184,8 +195,13 @@ class Pages:
         """Drop all latched messages: without pages they are not kept up to date."""
         self._latched.clear()
 
+    def send_messages(self) -> None:
+        """Send the messages that wait to the pages that can take them."""
+        for page in [*self._pages.values()]:
+            page.send_messages()
+
     def send_state(self, state: bytes) -> None:
-        """Send a state to all pages with an empty write buffer."""
+        """Send a state to all pages with an empty write buffer, after the messages that wait."""
         broadcast([page.connection for page in self._pages.values() if not page.buffered], state)
 
     def show(self, page: Page, watched: Watched) -> None:
@@ -226,6 +242,11 @@ class Pages:
             if key in page.watched.latest:
                 page.waiting[key] = sample.frame
 
-    def _send(self, frame: str) -> None:
-        for page in [*self._pages.values()]:
-            page.send(frame)
+    def _send(
+        self, message: ServerMessage, subject: str, frame: str, pages: Iterable[Page]
+    ) -> None:
+        for page in [*pages]:
+            if type(message) in REPLACED:
+                page.keep((message.type, subject), frame)
+            else:
+                page.send(frame)

@@ -574,3 +574,12 @@ ServerMessage: TypeAlias = (
     | BagWriting
 )
 """A text frame from the node."""
+REPLACED: frozenset[type[ServerMessage]] = frozenset({
+    Graph, Model, World, Layout, SimulationStatus, Controllers, Diagnostics, Commanders,
+    EmergencyStop, Ages, Topics, Transforms, Findings, GoalStatus, Recording, Playhead, BagWriting,
+})  # fmt: skip
+"""
+Messages that say how something is: of each subject a page that reads slowly gets the newest alone.
+
+All others say what has happened, and each is sent.
+"""

@@ -251,6 +251,7 @@ class Server:
             messages, state = self._backend.take_state()
             for message in messages:
                 self._publish_message(message)
+            self.pages.send_messages()
             if state is not None:
                 self.pages.send_state(state)
             if self._router.shows_topics:

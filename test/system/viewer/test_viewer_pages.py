@@ -20,7 +20,7 @@ from support.running_programs import PATIENCE
 
 from amr_description.errors import ViewerError
 from amr_description.viewer.backend import Answer
-from amr_description.viewer.protocol import Driver, Notice, TimeReset
+from amr_description.viewer.protocol import Driver, Graph, Notice, TimeReset
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server, ServerSettings, STATIC
 
@@ -176,10 +176,26 @@ def test_a_page_with_too_large_a_write_buffer_is_disconnected(server):
     with deaf(server.url), Page(server.url) as page:
         for count in range(30):  # 120 MB
             notice = Notice('info', str(count) + 'x' * 4_000_000)
-            server.call(partial(server.pages.publish, 'all', notice))
+            server.call(partial(server.pages.send_message, notice))
             page.wait(lambda count=count: len(page.of('notice')) > count)
         page.ask('play', 1, simulator='/s')
         assert [*server.pages._pages] == ['page 2']
+
+
+def test_a_page_that_reads_late_gets_the_newest_of_what_is_and_all_that_has_happened(server):
+    """30 graphs of 4 MB are more than a buffer may hold; who was stopped has to be said."""
+    with deaf(server.url) as late, Page(server.url) as page:
+        for count in range(30):
+            graph = Graph((), (), str(count) + 'x' * 4_000_000)
+            server.call(partial(server.pages.publish, '', graph))
+            server.call(partial(server.pages.publish, '/', Driver('/', f'page {count}')))
+            page.wait(lambda count=count: len(page.of('driver')) > count)
+        late.settimeout(PATIENCE)
+        read = bytearray()
+        while b'"hint":"29x' not in read[-5_000_000:]:
+            read += late.recv(1 << 20)
+    assert len(re.findall(rb'"hint":"\d+x', read)) < 10
+    assert len(re.findall(rb'"type":"driver"', read)) == 30
 
 
 def test_the_backend_is_open_while_there_are_pages(backend, server):
