@@ -46,7 +46,7 @@ FEW_LINES = 80
 # A robot without a height stands on what is below it.
 BUDGETS = {
     'modules': 836,
-    'code lines': 96_428,
+    'code lines': 96_430,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
