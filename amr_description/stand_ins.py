@@ -12,6 +12,7 @@ STAND_INS = {
     ('demo_nodes_py', 'listener'): 'demo_listener',
     ('demo_nodes_py', 'talker'): 'demo_talker',
     ('joint_state_publisher', 'joint_state_publisher'): 'joint_state_publisher',
+    ('joy', 'joy_node'): 'joy_node',
     ('nav2_map_server', 'map_saver_cli'): 'map_saver_cli',
     ('nav2_map_server', 'map_server'): 'map_server',
     ('py_pubsub', 'listener'): 'listener',
@@ -19,6 +20,7 @@ STAND_INS = {
     ('robot_localization', 'ekf_node'): 'ekf_node',
     ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
     ('ros_gz_sim', 'create'): 'create',
+    ('teleop_twist_joy', 'teleop_node'): 'teleop_twist_joy',
     ('teleop_twist_keyboard', 'teleop_twist_keyboard'): 'teleop_twist_keyboard',
     ('tf2_ros', 'static_transform_publisher'): 'static_transform_publisher',
     ('tf2_ros', 'tf2_echo'): 'tf2_echo',
@@ -54,8 +56,8 @@ _TELEOP = (
     "'ros2 run teleop_twist_keyboard teleop_twist_keyboard', or the page of the viewer, drives"
 )
 _GAMEPAD = (
-    "a gamepad at the page of 'ros2 run amr_description viewer' drives, or "
-    "'ros2 run teleop_twist_keyboard teleop_twist_keyboard'"
+    "'ros2 run joy joy_node' and 'ros2 run teleop_twist_joy teleop_node' drive, or a gamepad at "
+    "the page of 'ros2 run amr_description viewer'"
 )
 _SENSOR = (
     'it is the driver of a device; the simulator measures by the <gazebo><sensor> of the robot '

@@ -40,7 +40,7 @@ from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare, declare_overrides
 from amr_description.ros.polled_topic import PollingNode
 from amr_description.ros.runtime import run
-from amr_description.ros.type_mismatch import listeners, TYPE_NAMES
+from amr_description.ros.type_mismatch import TYPE_NAMES, unheard_lines
 from amr_description.text import unwrap
 
 _PURPOSE = (
@@ -159,14 +159,9 @@ class TwistMuxNode(PollingNode):
         """Follow the types of the publishers, and say who cannot hear the output."""
         for each in self._sources:
             each.follow()
-        topic, ours = self._commands.topic_name, TYPE_NAMES[self._is_stamped]
-        for listener in listeners(self, topic):
-            if listener.type_name == TYPE_NAMES[not self._is_stamped]:
-                self.warn_once(
-                    f'{listener.node} wants {listener.type_name} on {topic}, but this publishes '
-                    f'{ours}: nothing will arrive; use '
-                    f'-p use_stamped:={str(not self._is_stamped).lower()}'
-                )
+        topic = self._commands.topic_name
+        for line in unheard_lines(self, topic, self._is_stamped, 'use_stamped'):
+            self.warn_once(line)
 
     def _publish_diagnostics(self) -> None:
         status = DiagnosticStatus(

@@ -113,6 +113,25 @@ def warnings(topic: str, found: Iterable[MismatchListener], *, stamped: bool) ->
     ]
 
 
+def unheard_lines(node: Node, topic: str, stamped: bool, option: str) -> list[str]:
+    """
+    Return a line for each node that subscribes to the other type than is published.
+
+    Args:
+        node: publishes.
+        topic: the full name.
+        stamped: whether it publishes the stamped type.
+        option: its parameter that says which type.
+    """
+    other = TYPE_NAMES[not stamped]
+    return [
+        f'{each.node} wants {other} on {topic}, but this publishes {TYPE_NAMES[stamped]}: nothing '
+        f'will arrive; use -p {option}:={str(not stamped).lower()}'
+        for each in listeners(node, topic)
+        if each.type_name == other
+    ]
+
+
 def nobody(topic: str, others: Sequence[str], *, stamped: bool) -> str:
     """Return the line that a topic has no listeners, and which topics have some."""
     elsewhere = f'; -r cmd_vel:={" or ".join(others)} has one' if others else ''

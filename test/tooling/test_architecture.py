@@ -44,14 +44,15 @@ FEW_LINES = 80
 # Vendors' files name passthrough controllers. What the page's node does on which of its two
 # threads is said by types; messages to slow pages are replaced by newer ones.
 # A robot without a height stands on what is below it.
+# Launch files of robots start a joystick: joy_node, which reads /dev/input, and teleop_twist_joy.
 BUDGETS = {
-    'modules': 836,
-    'code lines': 96_430,
+    'modules': 843,
+    'code lines': 96_918,
     'small modules of one importer beside them': 41,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_476,
+    'code lines of helpers in test files': 26_565,
 }
 
 BASE = {

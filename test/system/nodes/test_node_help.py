@@ -11,12 +11,14 @@ from support.ros_processes import run
 
 NODES = {
     'joint_state_publisher': 'source_list  string_array, empty',
+    'joy_node': 'autorepeat_rate  double, 20.0 Hz\n',
     'listener': '',
     'mujoco_sim': 'real_time_factor  double, 1.0\n',
     'robot_state_publisher': 'publish_frequency  double, 20.0 Hz\n',
     'ros2_control_node': 'update_rate  integer, 100 Hz\n',
     'scan_localizer': 'initial_pose.yaw  double, 0.0 rad\n',
     'talker': '',
+    'teleop_twist_joy': 'scale_linear_turbo.x  double, 1.0 m/s\n',
     'truth_localizer': 'update_duration  double, 0.01 s\n',
     'viewer': 'port  integer, 8080\n      Port to listen on, or the next one that is free',
 }

@@ -56,8 +56,7 @@ def asks(transition):
 @pytest.mark.parametrize(
     ('package', 'executable', 'instead'),
     [
-        ('joy', 'joy_node', 'a gamepad at the page of'),
-        ('teleop_twist_joy', 'teleop_node', 'a gamepad at the page of'),
+        ('joy_linux', 'joy_linux_node', "'ros2 run joy joy_node'"),
         ('rqt_graph', 'rqt_graph', "'ros2 node list'"),
         ('rplidar_ros', 'rplidar_node', 'the simulator measures by the <gazebo><sensor>'),
         ('nav2_amcl', 'amcl', 'it runs on a machine with ROS 2 Jazzy beside the simulator'),
@@ -75,6 +74,16 @@ def test_what_cannot_be_here_is_left_out_and_the_rest_comes_up(
     (note,) = notes(stack)
     assert note.startswith(f'{package} {executable}'.replace('rqt_graph rqt_graph', 'rqt_graph'))
     assert f'is left out: {instead}' in note or instead in note
+
+
+def test_a_joystick_beside_the_robot_is_started_by_nodes_of_ours(launch):
+    stack = launch("""Node(package='joy', executable='joy_node'),
+        Node(package='teleop_twist_joy', executable='teleop_node', name='teleop',
+             remappings=[('/cmd_vel', '/cmd_vel_joy')]),""")
+    assert [line for _, _, line in commands(stack)] == [
+        'joy_node',
+        'teleop_twist_joy --ros-args -r __node:=teleop -r /cmd_vel:=/cmd_vel_joy',
+    ]
 
 
 def test_what_is_mistyped_is_still_refused(launch):
