@@ -225,9 +225,19 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
     'ros_gz_sim': {},
     'ros_gz_sim.actions': _of(gazebo_files, 'GzServer'),
 }
-"""Module -> its names."""
+"""Module -> its names. A module below one of these has the names of that."""
 
 _ROOTS = {name.partition('.')[0] for name in UNDERSTOOD}
+
+
+def _names_in(module: str) -> Mapping[str, Any]:
+    """
+    Return the names of a module.
+
+    ``launch.actions.execute_process`` and the like, in which the original defines them, have those
+    of the module above.
+    """
+    return UNDERSTOOD.get(module) or UNDERSTOOD.get(module.rpartition('.')[0]) or {}
 
 
 class NotUnderstood:
@@ -238,7 +248,7 @@ class NotUnderstood:
         self._module, self._name = module, name
 
     def _refuse(self) -> NoReturn:
-        known = list(UNDERSTOOD.get(self._module, ()))
+        known = list(_names_in(self._module))
         name = f'{self._module}.{self._name}'
         understood = f'; understood are {", ".join(known)}' if known else ''
         raise refusal(
@@ -278,7 +288,7 @@ class _Finder(MetaPathFinder, Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         name = module.__name__
-        vars(module).update(UNDERSTOOD.get(name, {}))
+        vars(module).update(_names_in(name))
         for other in UNDERSTOOD:  # as launch does: `import launch` gives `launch.actions`
             parent, _, last = other.rpartition('.')
             if parent == name:

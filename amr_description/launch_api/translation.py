@@ -340,8 +340,10 @@ class Translation:
         if action.ros_arguments:
             arguments += ['--ros-args', *(text_of(context, each) for each in action.ros_arguments)]
         given = context.launch_configurations
-        own = '' if action.namespace is None else text_of(context, action.namespace)
-        outer = str(given.get(NAMESPACE, ''))
+        space = str(given.get(NAMESPACE, ''))
+        if action.namespace is not None:
+            # An empty one is one as well: the full name of the node is known then.
+            space = joined_namespace(space, text_of(context, action.namespace)) or '/'
         is_late = self.when is not None
         own_parameters = evaluated(context, action.parameters, '', is_late=is_late)
         parameters = [*given.get(PARAMETERS, ()), *own_parameters]
@@ -357,7 +359,7 @@ class Translation:
             executable,
             package=package,
             name=text_of(context, action.name).lstrip('/') or None if action.name else None,
-            namespace=joined_namespace(outer, own) or None,
+            namespace=space or None,
             parameters=parameters,
             remappings=[*given.get(REMAPPINGS, ()), *remappings],
             arguments=arguments,
@@ -469,7 +471,7 @@ def _logged(
 def _full_name(node: NodeRef | None) -> str:
     """Return the name of a managed node, as it is started."""
     assert isinstance(node, StackNode), 'what is managed is a node that is started'
-    return f'{node.namespace or ""}/{node.name}'
+    return f'{(node.namespace or "").rstrip("/")}/{node.name}'
 
 
 def _texts(context: LaunchContext, table: Mapping[Any, Any]) -> dict[str, str | None]:

@@ -94,6 +94,21 @@ def test_names_namespaces_remappings_and_arguments(launch, toys):
     assert 'use_sim_time' not in parameters(stack, 'c-3')
 
 
+@pytest.mark.parametrize(
+    ('namespace', 'words', 'section'),
+    [
+        ('', '', '/**:'),
+        ("namespace='',", ' -r __ns:=/', '/x:'),
+        ("namespace='/',", ' -r __ns:=/', '/x:'),
+        ("namespace=LaunchConfiguration('none', default=''),", ' -r __ns:=/', '/x:'),
+    ],
+)
+def test_an_empty_namespace_says_where_a_node_is(launch, namespace, words, section):
+    stack = launch(f"toy('a', name='x', {namespace} parameters=[{{'p': 1}}]),")
+    assert [line for *_, line in commands(stack)] == [f'a --ros-args -r __node:=x{words}']
+    assert parameters(stack, 'a-1').split() == [section, 'ros__parameters:', 'p:', '1']
+
+
 def test_environment(launch):
     stack = launch("""
         SetEnvironmentVariable('COLOR', 'red'),

@@ -78,6 +78,29 @@ def test_a_name_that_is_not_used_may_be_imported(launch):
     assert [line for *_, line in commands(stack)] == ['a']
 
 
+def test_a_name_may_come_from_the_module_that_defines_it(launch):
+    stack = launch(
+        'from launch.actions.declare_launch_argument import DeclareLaunchArgument\n'
+        'from launch.actions.nothing import GroupAktion\n'
+        'from launch.substitutions.launch_configuration import LaunchConfiguration\n'
+        'from launch_ros.actions.load_composable_nodes import LoadComposableNodes\n'
+        'import launch, launch_ros.actions.push_ros_namespace\n'
+        'import launch_ros.actions as actions\n'
+        f'{BEGIN}return launch.LaunchDescription([\n'
+        "        DeclareLaunchArgument('name', default_value='a'),\n"
+        "        actions.push_ros_namespace.PushRosNamespace('r1'),\n"
+        "        actions.Node(package='toys', executable=LaunchConfiguration('name'))])"
+    ).stack({})
+    assert [line for *_, line in commands(stack)] == ['a --ros-args -r __ns:=/r1']
+
+
+def test_what_the_module_that_defines_a_name_has_not_is_said(launch):
+    with pytest.raises(
+        BringupError, match=r'launch.actions.group_action.GroupAktion is not under'
+    ):
+        launch('from launch.actions.group_action import GroupAktion as G\nG()').stack({})
+
+
 def test_a_package_that_may_be_missing(launch):
     """A file that looks first, as many do."""
     stack = launch(
