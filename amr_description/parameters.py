@@ -44,10 +44,11 @@ TYPE_NAMES: dict[Any, str] = {
     str: 'string',
     tuple[str, ...]: 'string_array',
     tuple[float, ...]: 'double_array',
+    tuple[bool, ...]: 'bool_array',
 }
 """The Python types of fields, and their names in ROS."""
 
-_ELEMENT_TYPES = {'string_array': str, 'double_array': float}
+_ELEMENT_TYPES = {'string_array': str, 'double_array': float, 'bool_array': bool}
 _KEY = 'amr_description.parameter'
 _NO_VALUES: Mapping[str, Any] = {}
 _NUMBER = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?')

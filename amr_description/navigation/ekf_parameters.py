@@ -10,10 +10,9 @@ What is set and is of no use gets one line: :attr:`EkfParameters.notes`.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-import math
+from dataclasses import dataclass, field, replace
 import re
-from typing import TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -35,66 +34,74 @@ from amr_description.navigation.ekf import (
 )
 from amr_description.navigation.ekf_estimator import Timing
 from amr_description.navigation.ekf_measurement import Mask, MeasurementChannel
+from amr_description.parameters import Bounds, Spec, Value
 from amr_description.text import closest_match
 
-Value: TypeAlias = bool | int | float | str | list[bool] | list[float]
+
+def _row(default: Value, **bounds: Any) -> Spec:
+    """Return a row of a table below, without its name."""
+    kinds = {bool: 'bool', int: 'integer', float: 'double', str: 'string'}
+    kind = 'double_array' if isinstance(default, tuple) else kinds[type(default)]
+    return Spec('', kind, default, '', '', Bounds(**bounds), read_only=True)
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterKind:
-    """The type of a parameter, and its value if it is not given; None: it has none."""
+_CONFIG = replace(_row((False,) * STATE_SIZE), type='bool_array')
+_NO = _row(False)
+_YES = _row(True)
+_THRESHOLD = _row(NO_THRESHOLD)
+_QUEUE = _row(10, minimum=1)
+_NUMBERS = _row(())
+_TOPIC = _row('', not_empty=True)
 
-    type: str
-    default: Value | None
-
-
-_CONFIG = ParameterKind('bool_array', [False] * STATE_SIZE)
-_NO = ParameterKind('bool', False)
-_YES = ParameterKind('bool', True)
-_THRESHOLD = ParameterKind('double', NO_THRESHOLD)
-_QUEUE = ParameterKind('integer', 10)
-_SIX = ParameterKind('double_array', None)
-
-NODE: Mapping[str, ParameterKind] = {
-    'frequency': ParameterKind('double', 30.0),
-    'sensor_timeout': ParameterKind('double', None),  # 1 / frequency
+NODE: Mapping[str, Spec] = {
+    'frequency': _row(30.0, above=0.0),
+    'sensor_timeout': _row(0.0, minimum=0.0),
     'two_d_mode': _NO,
-    'transform_time_offset': ParameterKind('double', 0.0),
-    'transform_timeout': ParameterKind('double', 0.0),
+    'transform_time_offset': _row(0.0),
+    'transform_timeout': _row(0.0, minimum=0.0),
     'print_diagnostics': _NO,
     'debug': _NO,
-    'debug_out_file': ParameterKind('string', 'robot_localization_debug.txt'),
+    'debug_out_file': _row('robot_localization_debug.txt'),
     'publish_tf': _YES,
     'publish_acceleration': _NO,
     'permit_corrected_publication': _NO,
-    'map_frame': ParameterKind('string', 'map'),
-    'odom_frame': ParameterKind('string', 'odom'),
-    'base_link_frame': ParameterKind('string', 'base_link'),
-    'base_link_frame_output': ParameterKind('string', None),  # base_link_frame
-    'world_frame': ParameterKind('string', None),  # odom_frame
-    'tf_prefix': ParameterKind('string', None),
-    'gravitational_acceleration': ParameterKind('double', 9.80665),
+    'map_frame': _row('map'),
+    'odom_frame': _row('odom'),
+    'base_link_frame': _row('base_link'),
+    'base_link_frame_output': _row(''),
+    'world_frame': _row(''),
+    'tf_prefix': _row(''),
+    'gravitational_acceleration': _row(9.80665),
     'predict_to_current_time': _NO,
     'smooth_lagged_data': _NO,
-    'history_length': ParameterKind('double', 0.0),
+    'history_length': _row(0.0),
     'reset_on_time_jump': _NO,
     'disabled_at_startup': _NO,
     'use_control': _NO,
     'stamped_control': _NO,
-    'control_timeout': ParameterKind('double', 0.0),
-    'control_config': ParameterKind('bool_array', None),
-    'acceleration_limits': _SIX,
-    'deceleration_limits': _SIX,
-    'acceleration_gains': _SIX,
-    'deceleration_gains': _SIX,
+    'control_timeout': _row(0.0, minimum=0.0),
+    'control_config': replace(_NUMBERS, type='bool_array'),
+    'acceleration_limits': _NUMBERS,
+    'deceleration_limits': _NUMBERS,
+    'acceleration_gains': _NUMBERS,
+    'deceleration_gains': _NUMBERS,
     'dynamic_process_noise_covariance': _NO,
-    'process_noise_covariance': ParameterKind('double_array', None),
-    'initial_estimate_covariance': ParameterKind('double_array', None),
-    'initial_state': ParameterKind('double_array', None),
-    'diagnostic_updater.period': ParameterKind('double', 1.0),
+    'process_noise_covariance': _NUMBERS,
+    'initial_estimate_covariance': _NUMBERS,
+    'initial_state': _NUMBERS,
+    'diagnostic_updater.period': _row(1.0, above=0.0),
     'diagnostic_updater.use_fqn': _NO,
 }
-INPUTS: Mapping[str, Mapping[str, ParameterKind]] = {
+_WITHOUT_DEFAULT = {
+    'sensor_timeout',  # 1 / frequency
+    'base_link_frame_output',  # base_link_frame
+    'world_frame',  # odom_frame
+    'tf_prefix', 'control_config', 'acceleration_limits', 'deceleration_limits',
+    'acceleration_gains', 'deceleration_gains', 'process_noise_covariance',
+    'initial_estimate_covariance', 'initial_state',
+}  # fmt: skip
+"""They have no value unless one is given, or the one of another."""
+INPUTS: Mapping[str, Mapping[str, Spec]] = {
     'odom': {
         '_config': _CONFIG,
         '_differential': _NO,
@@ -138,7 +145,6 @@ _MEASURES: Mapping[str, tuple[slice, ...]] = {
     'twist': (TWIST,),
     'imu': (slice(3, 6), TURN_RATE, ACCELERATION),
 }
-_TYPES = {'bool': (bool,), 'integer': (int,), 'double': (float, int), 'string': (str,)}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -210,7 +216,6 @@ def read_parameters(given: Mapping[str, object]) -> EkfParameters:
     """
     notes: list[str] = []
     values = _values(given, notes)
-    _check(values)
     frames = _frames(values, notes)
     inputs = [_input(kind, name, values, notes) for kind, name in _inputs(given)]
     if not inputs:
@@ -240,13 +245,13 @@ def read_parameters(given: Mapping[str, object]) -> EkfParameters:
     return EkfParameters(values, inputs, tuning, timing, *frames, notes=notes)
 
 
-def kinds_of(given: Mapping[str, object]) -> dict[str, ParameterKind]:
-    """Return the parameters that a node has that is given some, by name."""
-    kinds = dict(NODE)
+def rows_of(given: Mapping[str, object]) -> list[Spec]:
+    """Return the parameters that a node has that is given some."""
+    rows = dict(NODE)
     for kind, name in _inputs(given):
-        kinds[name] = ParameterKind('string', '')
-        kinds |= {name + suffix: each for suffix, each in INPUTS[kind].items()}
-    return kinds
+        rows[name] = _TOPIC
+        rows |= {name + suffix: each for suffix, each in INPUTS[kind].items()}
+    return [replace(row, name=name) for name, row in rows.items()]
 
 
 def _inputs(given: Mapping[str, object]) -> Iterator[tuple[str, str]]:
@@ -262,13 +267,14 @@ def _values(given: Mapping[str, object], notes: list[str]) -> dict[str, Value]:
     """Return the values of all parameters, of the right types."""
     values: dict[str, Value] = {}
     whole: list[str] = []
-    for name, kind in kinds_of(given).items():
+    for row in rows_of(given):
+        name = row.name
         if given.get(name) is None:
-            if kind.default is not None:
-                values[name] = kind.default
+            if name not in _WITHOUT_DEFAULT:
+                values[name] = row.default
             continue
-        values[name] = _typed(name, given[name], kind.type)
-        if kind.type == 'double' and not isinstance(given[name], float):
+        values[name] = row.check(row.adopt(given[name]))
+        if row.type == 'double' and not isinstance(given[name], float):
             whole.append(name)
     if whole:
         notes.append(
@@ -283,56 +289,8 @@ def _values(given: Mapping[str, object], notes: list[str]) -> dict[str, Value]:
     return values
 
 
-def _typed(name: str, value: object, kind: str) -> Value:
-    """Return a value as its type. Raises ParameterError."""
-    if kind.endswith('_array'):
-        element = kind.removesuffix('_array')
-        items = list(value) if isinstance(value, Sequence) and not isinstance(value, str) else None
-        if items is None or not all(_fits(item, element) for item in items):
-            found = 'something else' if items is None else f'of {_type_of(items)}'
-            raise ParameterError(
-                f"parameter '{name}' is {found} ({value!r:.60}); a list of {element}s is expected"
-            )
-        return [float(item) for item in items] if element == 'double' else items
-    if not _fits(value, kind):
-        raise ParameterError(f"parameter '{name}' is {value!r:.60}; a {kind} is expected")
-    return float(value) if kind == 'double' else value  # type: ignore[arg-type, return-value]
-
-
-def _fits(value: object, kind: str) -> bool:
-    is_bool = isinstance(value, bool)
-    return isinstance(value, _TYPES[kind]) and is_bool == (kind == 'bool')
-
-
-def _type_of(items: Sequence[object]) -> str:
-    return '/'.join(sorted({type(item).__name__ for item in items})) or 'nothing'
-
-
-def _check(values: Mapping[str, Value]) -> None:
-    """Raise ParameterError for values that no filter can work with."""
-    for name, value in values.items():
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ParameterError(f"parameter '{name}' is {value}; a finite number is expected")
-        if isinstance(value, float) and value <= 0.0 and name in _ABOVE_ZERO:
-            raise ParameterError(f"parameter '{name}' is {value}; it must be above 0")
-        if isinstance(value, float) and value < 0.0 and name in _FROM_ZERO:
-            raise ParameterError(f"parameter '{name}' is {value}; it must not be below 0")
-        if name.endswith('_queue_size') and isinstance(value, int) and value < 1:
-            raise ParameterError(f"parameter '{name}' is {value}; it must be at least 1")
-        if isinstance(value, list) and not all(math.isfinite(item) for item in value):
-            raise ParameterError(f"parameter '{name}' holds what is not a finite number")
-        if name.endswith('_config') and name != 'control_config':
-            _check_length(name, value, STATE_SIZE)
-        if _INPUT.fullmatch(name) and value == '':
-            raise ParameterError(f"parameter '{name}' is empty; the name of a topic is expected")
-
-
-_ABOVE_ZERO = ('frequency', 'diagnostic_updater.period')
-_FROM_ZERO = ('sensor_timeout', 'transform_timeout', 'control_timeout')
-
-
 def _check_length(name: str, value: Value, length: int) -> None:
-    assert isinstance(value, list), name
+    assert isinstance(value, tuple), name
     if len(value) != length:
         raise ParameterError(
             f"parameter '{name}' has {len(value)} elements; {length} are expected: "
@@ -366,7 +324,7 @@ def _frames(values: Mapping[str, Value], notes: list[str]) -> tuple[str, str, st
 def _input(kind: str, name: str, values: Mapping[str, Value], notes: list[str]) -> EkfInput:
     """Return an input, and note what it cannot measure."""
     config = values[f'{name}_config']
-    assert isinstance(config, list)
+    _check_length(f'{name}_config', config, STATE_SIZE)
     used = np.array(config, dtype=bool)
     measured = np.zeros(STATE_SIZE, dtype=bool)
     for part in _MEASURES[kind]:
@@ -452,7 +410,7 @@ def _covariance(values: Mapping[str, Value], name: str, default: Array) -> Array
     given = values.get(name)
     if given is None:
         return default
-    assert isinstance(given, list)
+    assert isinstance(given, tuple)
     if len(given) == STATE_SIZE:
         return np.diag(np.array(given, dtype=float))
     if len(given) == STATE_SIZE * STATE_SIZE:
@@ -512,13 +470,13 @@ def _control(
 def _six(values: Mapping[str, Value], name: str) -> tuple[float, ...]:
     """Return six numbers, or none if they are not given. Raises ParameterError."""
     given = values.get(name, ())
-    assert isinstance(given, list | tuple)
+    assert isinstance(given, tuple)
     if given and len(given) != 6:
         raise ParameterError(
             f"parameter '{name}' has {len(given)} elements; 6 are expected: vx, vy, vz, vroll, "
             'vpitch, vyaw'
         )
-    return tuple(given)
+    return given
 
 
 def _notes_on_values(values: Mapping[str, Value], given: Mapping[str, object]) -> Iterator[str]:
@@ -556,7 +514,7 @@ def _notes_on_values(values: Mapping[str, Value], given: Mapping[str, object]) -
 
 def _notes_on_names(given: Mapping[str, object]) -> Iterator[str]:
     """Yield a line for each parameter that is set and not known."""
-    known = kinds_of(given)
+    known = {each.name for each in rows_of(given)}
     for name in given:
         if name in known or _OF_ROS.fullmatch(name):
             continue

@@ -30,10 +30,6 @@ from amr_description.ros.rclpy_internals import (
 
 Table = TypeVar('Table')
 
-_ARRAYS = {
-    'string_array': Parameter.Type.STRING_ARRAY,
-    'double_array': Parameter.Type.DOUBLE_ARRAY,
-}
 PUBLISHER_POLICIES = (
     QoSPolicyKind.DEPTH,
     QoSPolicyKind.DURABILITY,
@@ -193,10 +189,10 @@ def add_parameter_event_qos_overrides(node: Node) -> None:
 
 
 def _declare(node: Node, spec: Spec) -> None:
-    array_type = _ARRAYS.get(spec.type)
-    if array_type is None:
+    if not spec.type.endswith('_array'):
         node.declare_parameter(spec.name, spec.default, _descriptor(spec))
         return
+    array_type = Parameter.Type[spec.type.upper()]
     # An empty list has no type of its own in rclpy: the type is declared, then the value is set.
     if node.declare_parameter(spec.name, array_type).type_ == Parameter.Type.NOT_SET:
         node.set_parameters(

@@ -47,12 +47,12 @@ FEW_LINES = 80
 # Launch files of robots start a joystick: joy_node, which reads /dev/input, and teleop_twist_joy.
 BUDGETS = {
     'modules': 843,
-    'code lines': 96_919,
-    'small modules of one importer beside them': 41,
+    'code lines': 96_879,
+    'small modules of one importer beside them': 40,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_573,
+    'code lines of helpers in test files': 26_576,
 }
 
 BASE = {

@@ -43,9 +43,8 @@ from amr_description.navigation.ekf_estimator import Estimator
 from amr_description.navigation.ekf_parameters import (
     EkfInput,
     EkfParameters,
-    kinds_of,
-    ParameterKind,
     read_parameters,
+    rows_of,
 )
 from amr_description.navigation.ros.ekf_inputs import InputReader, MESSAGE_TYPES
 from amr_description.navigation.ros.ekf_outputs import (
@@ -55,20 +54,13 @@ from amr_description.navigation.ros.ekf_outputs import (
     Outputs,
 )
 from amr_description.navigation.ros.messages import is_place
+from amr_description.parameters import Spec
 from amr_description.ros.messages import nanoseconds, transform_of_message, vector_of
 from amr_description.ros.parameters import PUBLISHER_POLICIES
 from amr_description.ros.rclpy_internals import parameter_overrides, set_parameter_override
 from amr_description.tf2_ros.buffer import Buffer
 from amr_description.tf2_ros.listener import TransformListener
 
-_TYPES = {
-    'bool': Parameter.Type.BOOL,
-    'integer': Parameter.Type.INTEGER,
-    'double': Parameter.Type.DOUBLE,
-    'string': Parameter.Type.STRING,
-    'bool_array': Parameter.Type.BOOL_ARRAY,
-    'double_array': Parameter.Type.DOUBLE_ARRAY,
-}
 _QUIET = 5.0
 """s between two warnings about the same."""
 
@@ -118,12 +110,12 @@ class EkfNode(Node):
             if each.type_ != Parameter.Type.NOT_SET
         }
         parameters = read_parameters(given)
-        for name, kind in kinds_of(given).items():
-            self._declare_one(name, kind, parameters)
+        for row in rows_of(given):
+            self._declare_one(row, parameters)
         return parameters
 
-    def _declare_one(self, name: str, kind: ParameterKind, parameters: EkfParameters) -> None:
-        kind_in_ros = _TYPES[kind.type]
+    def _declare_one(self, row: Spec, parameters: EkfParameters) -> None:
+        name, kind_in_ros = row.name, Parameter.Type[row.type.upper()]
         value = parameters.values.get(name)
         descriptor = ParameterDescriptor(read_only=True)
         if value is None:

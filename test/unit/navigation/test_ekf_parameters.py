@@ -127,16 +127,19 @@ def test_what_is_of_no_use_is_told(given, note):
         ),
         (
             {'odom0': 'a', 'odom0_config': [1] * 15},
-            "parameter 'odom0_config' is of int ([1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]); "
-            'a list of bools is expected',
+            f"parameter 'odom0_config' must be of type bool_array, found {[1] * 15}, a list of "
+            'integers',
         ),
-        ({'two_d_mode': 'yes'}, "parameter 'two_d_mode' is 'yes'; a bool is expected"),
-        ({'frequency': 0.0}, "parameter 'frequency' is 0.0; it must be above 0"),
-        ({'sensor_timeout': -0.1}, "parameter 'sensor_timeout' is -0.1; it must not be below 0"),
-        ({'odom0': ''}, "parameter 'odom0' is empty; the name of a topic is expected"),
+        (
+            {'two_d_mode': 'yes'},
+            "parameter 'two_d_mode' must be of type bool, found 'yes', a string",
+        ),
+        ({'frequency': 0.0}, "parameter 'frequency' must be greater than 0, found 0.0"),
+        ({'sensor_timeout': -0.1}, "parameter 'sensor_timeout' must be at least 0, found -0.1"),
+        ({'odom0': ''}, "parameter 'odom0' must not be empty, found "),
         (
             {'odom0': 'a', 'odom0_queue_size': 0},
-            "parameter 'odom0_queue_size' is 0; it must be at least 1",
+            "parameter 'odom0_queue_size' must be at least 1, found 0",
         ),
         (
             {'process_noise_covariance': [0.1] * 16},
@@ -197,9 +200,9 @@ def test_all_parameters_of_the_originals_example_are_known():
 
 
 def test_covariances_are_of_15_or_225_numbers():
-    diagonal = list(np.arange(15) / 10.0)
+    diagonal = (np.arange(15) / 10.0).tolist()
     short = read_parameters({'process_noise_covariance': diagonal}).tuning.process_noise
-    full = list(np.diag(diagonal).ravel())
+    full = np.diag(diagonal).ravel().tolist()
     assert np.array_equal(short, np.diag(diagonal))
     assert np.array_equal(
         read_parameters({'initial_estimate_covariance': full}).tuning.initial_covariance, short
