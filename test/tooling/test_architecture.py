@@ -670,6 +670,12 @@ def test_files_and_functions_stay_readable():
     assert too_long == []
 
 
+def test_the_map_for_contributors_has_every_room():
+    rooms = {path.parent.name for path in PACKAGE.glob('*/__init__.py')}
+    named = (ROOT / 'CONTRIBUTING.md').read_text().partition('## Where things are')[2]
+    assert {room for room in rooms if f'`{room}/`' not in named} == set()
+
+
 PACKAGES = [path.parent for path in SOURCES.values() if path.stem == '__init__']
 # Folders whose modules are verbs or executables: their table is the one that the program reads.
 WITH_A_TABLE_OF_THEIR_OWN = {'cli', 'nodes', 'stacks'}
