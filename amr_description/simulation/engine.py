@@ -294,7 +294,6 @@ class SimulationEngine:
     ) -> Arrival:
         arguments = manager_arguments(
             robot,
-            hardware,
             namespace,
             translation,
             controllers=self.settings.controllers,

@@ -12,10 +12,10 @@ from amr_description.controllers.checks.wheeled_drive_files import (
 )
 from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of, missing_files, named_files
-from amr_description.model.gazebo.builder import GazeboTranslation
+from amr_description.model.gazebo.builder import CLAIMED_JOINTS, GazeboTranslation
 from amr_description.model.gazebo.tags import ros2_control_host_of
-from amr_description.model.hardware_info import HardwareInfo
 from amr_description.model.robot import Robot
+from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.model.wheels import Rollers
 from amr_description.parameter_files import file_names, read_parameter_file
 from amr_description.text import quote_all
@@ -23,7 +23,6 @@ from amr_description.text import quote_all
 
 def manager_arguments(
     robot: Robot,
-    hardware: Sequence[HardwareInfo],
     namespace: str,
     translation: GazeboTranslation,
     *,
@@ -36,7 +35,6 @@ def manager_arguments(
 
     Args:
         robot: Its description.
-        hardware: What its ``<ros2_control>`` blocks say.
         namespace: Of the manager.
         translation: What stands for plugins of Gazebo.
         controllers: Paths of the parameter files, between commas, or empty.
@@ -53,11 +51,22 @@ def manager_arguments(
     arguments = [*ros_args, *rules]
     if namespace.strip('/'):  # several managers publish on one /diagnostics
         arguments += ['-p', 'diagnostic_updater.use_fqn:=true']
-    if len(hardware) > len(robot.plugin_hardware) or controllers:
+    if controllers or reads_files(robot):
         arguments += _parameter_files(robot, controllers, log)
     else:  # Gazebo's plugins are all that it has
         arguments += ['-p', f'update_rate:={translation.update_rate}']
     return arguments
+
+
+def reads_files(robot: Robot) -> bool:
+    """
+    Return whether the manager of a robot reads parameter files that it names.
+
+    It does not where plugins of Gazebo are all that it has.
+    """
+    return len(hardware_of(robot)) > len(robot.plugin_hardware) or any(
+        each.name == CLAIMED_JOINTS for each in robot.plugin_hardware
+    )
 
 
 def rollers_of(

@@ -21,9 +21,9 @@ from amr_description.errors import BagError, SimulationError
 from amr_description.log import Log, Severity
 from amr_description.model.controller_files import files_of
 from amr_description.model.robot import Robot
-from amr_description.model.ros2_control_tag import hardware_of
 from amr_description.parameter_files import file_names
 from amr_description.parameters import specs
+from amr_description.simulation.manager_arguments import reads_files
 from amr_description.simulation.parameters import SimulationParameters
 from amr_description.simulation.topics.link_transforms import (
     FIXED,
@@ -318,7 +318,7 @@ def controllers_texts(given: str, robot: Robot | None) -> tuple[str, ...]:
         robot: of the run.
     """
     paths = [Path(each) for each in file_names(given)]
-    if not paths and robot is not None and len(hardware_of(robot)) > len(robot.plugin_hardware):
+    if not paths and robot is not None and reads_files(robot):
         paths = files_of(robot)
     try:
         return tuple(path.read_text(encoding='utf-8') for path in paths)

@@ -25,6 +25,8 @@ from amr_description.text import quote, quote_all
 
 JOINTS = 'gazebo_plugins'
 """The name of the hardware component of joints and sensors."""
+CLAIMED_JOINTS = 'simulated_joints'
+"""Its name where it has joints that no tag commands, but controllers of parameter files."""
 COMMAND = '~/cmd_vel'
 """What the controllers that drive call the topic of their commands."""
 ODOMETRY = ('~/odom', '~/odometry')
@@ -150,7 +152,7 @@ class Builder:
         hardware: Sequence[HardwareInfo],
         claimed: Callable[[], Collection[str]] = tuple,
     ) -> None:
-        """``claimed``: returns the joints of ``hardware`` that controllers may claim."""
+        """``claimed``: returns the joints that controllers of parameter files may claim."""
         self.robot = robot
         self._claimed = claimed
         self._offered = {
@@ -172,6 +174,7 @@ class Builder:
         self._commands: dict[str, tuple[str, ...]] = {}
         self._truths: list[str] = []
         self._moves_base = False
+        self._are_claimed = False
         self._initial: dict[str, float] = {}
         self._torques: dict[str, float] = {}
         self._rates = [float(LEAST_RATE)]
@@ -202,23 +205,26 @@ class Builder:
             plugin.note(f'it is left out: {owner} has the joints {quote_all(theirs)}')
         return not lacking and not theirs and bool(joints)
 
+    def is_claimed(self, joint: str) -> bool:
+        """Return whether controllers of parameter files may claim a joint."""
+        return joint in self._claimed()
+
     def _is_theirs(self, joint: str, interface: str) -> bool:
         """Return whether a joint is left to ``<ros2_control>``."""
         if joint not in self.controlled:
             return False
-        return interface not in self._offered[joint] or joint in self._claimed()
+        return interface not in self._offered[joint] or self.is_claimed(joint)
 
     def command(
         self,
         joints: Sequence[str],
-        interface: str,
-        *,
+        *interfaces: str,
         torque: float = math.inf,
         initial: float | None = None,
     ) -> None:
-        """Give joints a command interface, a largest torque, N·m, and an initial position."""
+        """Give joints command interfaces, a largest torque, N·m, and an initial position."""
         for joint in joints:
-            self._commands[joint] = (*self._commands.get(joint, ()), interface)
+            self._commands[joint] = (*self._commands.get(joint, ()), *interfaces)
             if initial is not None:
                 self._initial[joint] = initial
             if 0.0 < torque < math.inf:
@@ -307,6 +313,7 @@ class Builder:
         moves &= any(joint.has_position for joint in self.robot.joints)
         if moves and not any(each.type == BROADCASTER for each in self.controllers):
             self.broadcast()
+        self._leave_to_controllers()
         hardware = self._joint_hardware() + self._base_hardware()
         joints = [self._limited(joint.name) for joint in self.robot.joints]
         robot = self.robot
@@ -322,6 +329,31 @@ class Builder:
             (*self.remarks, *self._lone_joints()),
             sensors,
             tuple(self.faults),
+        )
+
+    def _leave_to_controllers(self) -> None:
+        """
+        Let controllers command joints that neither ``<ros2_control>`` nor a plugin has.
+
+        They are those that controllers of the parameter files claim, and with them those that are
+        held while nobody commands the robot, so that it stands.
+        """
+        if self.is_controlled:
+            return
+        free = [
+            each.name
+            for each in self.robot.joints
+            if each.has_position and each.mimic is None and each.name not in self._commands
+        ]
+        claimed = [name for name in free if self.is_claimed(name)]
+        if not claimed:
+            return
+        held = held_without_commands(self.robot)
+        self._are_claimed = True
+        self.command([name for name in free if name in held or name in claimed], *_STATES)
+        self.remarks.append(
+            'there is no <ros2_control>: position, velocity and effort are simulated of the '
+            f'joints that its controllers claim: {quote_all(claimed)}'
         )
 
     def _lone_joints(self) -> Sequence[str]:
@@ -357,10 +389,13 @@ class Builder:
             )
             for name, (interfaces, parameters) in self.instruments.items()
         )
-        if not self.controllers or not (joints or sensors):
+        if not (self.controllers or self._are_claimed) or not (joints or sensors):
             return ()
-        plugin = 'amr_description/MujocoSystem'
-        return (HardwareInfo(JOINTS, HardwareType.SYSTEM, plugin, joints=joints, sensors=sensors),)
+        name, plugin = (
+            CLAIMED_JOINTS if self._are_claimed else JOINTS,
+            'amr_description/MujocoSystem',
+        )
+        return (HardwareInfo(name, HardwareType.SYSTEM, plugin, joints=joints, sensors=sensors),)
 
     def _states(self, joint: str) -> tuple[InterfaceInfo, ...]:
         initial = {'position': self._initial.get(joint)}

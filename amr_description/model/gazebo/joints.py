@@ -112,7 +112,11 @@ def _joint_trajectory(builder: Builder, plugin: PluginElement) -> None:
 
 
 def _transmissions(builder: Builder, plugin: PluginElement) -> None:
-    """ROS 1's host of controllers: its joints can be commanded as ``<transmission>`` says."""
+    """
+    ROS 1's host of controllers: its joints can be commanded as ``<transmission>`` says.
+
+    Those that controllers claim, of which the interface may be another one, are left to them.
+    """
     found: dict[str, list[str]] = {}
     for joint in plugin.element.getroottree().iterfind('transmission/joint'):
         for each in joint.iterchildren('hardwareInterface'):
@@ -120,7 +124,9 @@ def _transmissions(builder: Builder, plugin: PluginElement) -> None:
             interfaces = found.setdefault(joint.get('name', ''), [])
             if kind.lower() in ('position', 'velocity', 'effort'):
                 interfaces.append(kind.lower())
-    joints = [name for name, interfaces in found.items() if interfaces]
+    joints = [
+        name for name, interfaces in found.items() if interfaces and not builder.is_claimed(name)
+    ]
     if not joints or not builder.can_drive(plugin, joints, _NONE):
         return
     for name in joints:

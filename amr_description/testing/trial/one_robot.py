@@ -243,7 +243,7 @@ class Trial:
             listed = [each for each in self.found.controllers if each.name not in self._publishers]
             named = 'its controllers' if listed else 'its <ros2_control>, without controllers'
             self._fault(f'nothing has moved by {named}: {why}')
-        elif not declared.is_any:
+        elif not declared.is_any and not self.found.motions:
             self.found.undriven.insert(0, 'its description has nothing that drives it')
 
     # --- keeping -------------------------------------------------------------------------------

@@ -244,6 +244,9 @@ def tells(findings: Sequence[TrialFindings]) -> str:
     """Return how many robots did what, in one line."""
     verdicts = [judge(each).verdict for each in findings]
     parts = [f'{verdicts.count(each)} {each}' for each in TrialVerdict]
-    inert = sum(not each.has_drive for each in findings)
+    inert = sum(
+        not each.has_drive and verdict is TrialVerdict.NOT
+        for each, verdict in zip(findings, verdicts, strict=True)
+    )
     more = f', {inert} of them without anything in their description that drives' if inert else ''
     return f'{len(findings)} tried: {"; ".join(parts)}{more}'

@@ -7,6 +7,7 @@ import pytest
 
 from amr_description.controllers import CONTROLLERS
 from amr_description.controllers.checks.wheeled_drive_files import rollers_of_plugins
+from amr_description.model.gazebo.builder import CLAIMED_JOINTS
 from amr_description.model.gazebo.plugins import kind_of
 from amr_description.model.gazebo.translation import translate
 from amr_description.model.ros2_control_tag import hardware_of
@@ -544,6 +545,72 @@ def test_transmissions_of_ros_1():
         'by ros2_control ("velocity", "effort"), by controllers of a parameter file that is given',
     )
     assert not found.not_simulated
+
+
+POLICY = """controller_manager: {ros__parameters: {legs: {type: my_legs.policy/Policy}}}
+legs: {ros__parameters: {joints: [right_joint], gain: 2.0}}
+"""
+ALL_THREE = ['position', 'velocity', 'effort']
+
+
+@pytest.fixture
+def claiming(tmp_path):
+    file = tmp_path / 'legs.yaml'
+    file.write_text(POLICY)
+    return [file]
+
+
+def commands_of(found):
+    (hardware,) = found.robot.plugin_hardware
+    return {each.name: [i.name for i in each.command_interfaces] for each in hardware.joints}
+
+
+def test_joints_that_no_tag_commands_are_left_to_the_controllers_that_claim_them(claiming):
+    wheels = parse(cart(), 'cart.urdf')
+    assert not translate(wheels).robot.plugin_hardware
+    found = translate(wheels, claiming)
+    assert commands_of(found) == {'left_joint': [], 'right_joint': ALL_THREE}
+    assert found.robot.plugin_hardware[0].name == CLAIMED_JOINTS and not found.controllers
+    assert found.remarks == (
+        'there is no <ros2_control>: position, velocity and effort are simulated of the joints '
+        'that its controllers claim: "right_joint"',
+    )
+
+
+def test_of_a_robot_on_legs_all_motors_are_held_until_they_are_claimed(claiming):
+    legs = cart().replace('"continuous"', '"revolute"')
+    legs = legs.replace('<axis', '<limit lower="-1" upper="1" effort="9" velocity="9"/><axis')
+    found = translate(parse(legs, 'legs.urdf'), claiming)
+    assert commands_of(found) == {'left_joint': ALL_THREE, 'right_joint': ALL_THREE}
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        cart(classic_drive()),
+        cart().replace(
+            '</robot>',
+            '<ros2_control name="a" type="system"><hardware><plugin>a/B</plugin></hardware>'
+            '<joint name="left_joint"><state_interface name="position"/></joint></ros2_control>'
+            '</robot>',
+        ),
+    ],
+)
+def test_joints_that_a_tag_commands_stay_with_it(claiming, text):
+    robot = parse(text, 'cart.urdf')
+    expected = translate(robot).robot.plugin_hardware
+    assert translate(robot, claiming).robot.plugin_hardware == expected
+
+
+def test_transmissions_of_ros_1_leave_what_is_claimed(claiming):
+    kind = '<hardwareInterface>EffortJointInterface</hardwareInterface>'
+    transmission = (
+        f'<transmission name="t"><joint name="right_joint">{kind}</joint></transmission>'
+    )
+    text = cart(plugin('libgazebo_ros_control.so', 'gazebo_ros_control'))
+    text = text.replace('</robot>', f'{transmission}</robot>')
+    assert commands_of(translate(parse(text)))['right_joint'] == ['effort']
+    assert commands_of(translate(parse(text), claiming))['right_joint'] == ALL_THREE
 
 
 @pytest.mark.parametrize(
