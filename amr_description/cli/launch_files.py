@@ -47,13 +47,19 @@ def find_launch_file(
 def launchable_names(package: str) -> list[str]:
     """Return what may be launched of a package: names of stacks and files. Raises AmrError."""
     share = package_prefix(package) / 'share' / package
+    files = {path.name for path in launch_files_below(share)}
+    return [*(STACKS if package == _OURS else ()), *sorted(files)]
+
+
+def launch_files_below(folder: Path) -> set[Path]:
+    """Return the launch files and stacks below a folder."""
     markup = ('*.launch', *(f'*.launch{ending}' for ending in MARKUP))
-    files = {path.name for pattern in markup for path in share.rglob(pattern)}
-    for path in share.rglob('*.py'):
+    files = {path for pattern in markup for path in folder.rglob(pattern)}
+    for path in folder.rglob('*.py'):
         with suppress(AmrError):
             if {path.stem, _FUNCTION} & _functions(path):
-                files.add(path.name)
-    return [*(STACKS if package == _OURS else ()), *sorted(files)]
+                files.add(path)
+    return files
 
 
 def _is_path(word: str) -> bool:

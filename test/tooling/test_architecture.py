@@ -46,14 +46,15 @@ FEW_LINES = 80
 # A robot without a height stands on what is below it.
 # Launch files of robots start a joystick: joy_node, which reads /dev/input, and teleop_twist_joy.
 # Joints of no tag are simulated for the controllers that claim them.
+# Launch files of others are tried one by one, as robots are.
 BUDGETS = {
-    'modules': 843,
-    'code lines': 96_911,
+    'modules': 845,
+    'code lines': 97_267,
     'small modules of one importer beside them': 40,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_600,
+    'code lines of helpers in test files': 26_663,
 }
 
 BASE = {

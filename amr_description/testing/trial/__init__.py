@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Try robots as they are: ``scripts/try_robots FOLDER|FILE…``.
+Try robots as they are: ``scripts/try_robots FOLDER|FILE…``; and ``scripts/try_launch_files``.
 
 Each robot in a process, a simulator and a ROS domain of its own: checked, spawned, left alone for
 three seconds, its controllers brought up, driven and moved, and compared with the truth.
@@ -17,5 +17,7 @@ three seconds, its controllers brought up, driven and moved, and compared with t
 ``findings.py``      what is found, as data
 ``posture.py``       whether it stands, falls, tips over or explodes
 ``verdict.py``       what a robot did: as told, off, or not at all, and why; a row of the table
+``launch_trial.py``  one launch file: whether it comes up, and its robot drives
+``launch_command.py``  launch files one after the other, their options and their table
 ==================== ==============================================================================
 """
