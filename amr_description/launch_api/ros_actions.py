@@ -33,7 +33,8 @@ class PushROSNamespace(Action):
     def execute(self, context: LaunchContext) -> None:
         outer = str(context.launch_configurations.get(NAMESPACE, ''))
         inner = text_of(context, self.namespace)
-        context.launch_configurations[NAMESPACE] = joined_namespace(outer, inner)
+        # An empty one says as well where the nodes are: at the root.
+        context.launch_configurations[NAMESPACE] = joined_namespace(outer, inner) or '/'
 
 
 class SetParameter(Action):

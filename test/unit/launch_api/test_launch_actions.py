@@ -109,6 +109,17 @@ def test_an_empty_namespace_says_where_a_node_is(launch, namespace, words, secti
     assert parameters(stack, 'a-1').split() == [section, 'ros__parameters:', 'p:', '1']
 
 
+def test_an_empty_namespace_that_is_pushed_says_where_nodes_are(launch):
+    stack = launch("""GroupAction([PushRosNamespace(''), toy('a', name='x', parameters=[{'p': 1}]),
+        PushRosNamespace('r1'), toy('b')]), toy('c', name='z'),""")
+    assert [line for *_, line in commands(stack)] == [
+        'a --ros-args -r __node:=x -r __ns:=/',
+        'b --ros-args -r __ns:=/r1',
+        'c --ros-args -r __node:=z',
+    ]
+    assert parameters(stack, 'a-1').startswith('/x:')
+
+
 def test_environment(launch):
     stack = launch("""
         SetEnvironmentVariable('COLOR', 'red'),
