@@ -54,7 +54,7 @@ BUDGETS = {
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_663,
+    'code lines of helpers in test files': 26_676,
 }
 
 BASE = {

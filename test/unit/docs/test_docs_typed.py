@@ -31,6 +31,13 @@ ELSEWHERE = {
     ('benchmarks.md', 'source scripts/activate; python -m benchmarks.cycle'): (
         'test/ros/benchmarks/test_parts.py'
     ),
+    ('legged_robots.md', 'python examples/walk.py'): 'test/unit/simulation/test_walk.py',
+    ('legged_robots.md', 'ros2 launch amr_description simulation urdf:=examples/'): (
+        'test/unit/simulation/test_walk.py'
+    ),
+    ('legged_robots.md', 'PYTHONPATH=examples ros2 launch'): (
+        'test/unit/simulation/test_walk.py'  # the same controller, in one process
+    ),
     ('learning.md', 'python examples/learn_to_drive.py'): (
         'test/unit/base/test_gym.py'  # learns for three generations
     ),
