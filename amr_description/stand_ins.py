@@ -64,8 +64,36 @@ _SENSOR = (
     'description, and publishes that (docs/sensors.md)'
 )
 
+_DRIVERS = (
+    'camera_ros',
+    'coin_d4_driver',
+    'depthai_ros_driver',
+    'hls_lfcd_lds_driver',
+    'ld08_driver',
+    'ldlidar',
+    'ldlidar_node',
+    'ldlidar_stl_ros2',
+    'livox_ros_driver2',
+    'lslidar_driver',
+    'orbbec_camera',
+    'ouster_ros',
+    'realsense2_camera',
+    'rplidar_ros',
+    'sick_scan_xd',
+    'sllidar_ros2',
+    'urg_node',
+    'urg_node2',
+    'usb_cam',
+    'v4l2_camera',
+    'velodyne_driver',
+    'velodyne_pointcloud',
+    'xv_11_driver',
+    'ydlidar_ros2_driver',
+    'zed_wrapper',
+)
+
 INSTEAD_OF_PACKAGES = {
-    'camera_ros': _SENSOR,
+    **dict.fromkeys(_DRIVERS, _SENSOR),
     'gazebo_ros': _SIMULATOR,
     'joint_state_publisher_gui': (
         "its sliders are on the page of 'ros2 launch amr_description display'"
@@ -73,7 +101,6 @@ INSTEAD_OF_PACKAGES = {
     'joy': _GAMEPAD,
     'joy_linux': _GAMEPAD,
     'joy_teleop': _GAMEPAD,
-    'ldlidar_stl_ros2': _SENSOR,
     'nav2_bringup': _NAVIGATION,
     'navigation2': _NAVIGATION,
     **dict.fromkeys(
@@ -94,11 +121,9 @@ INSTEAD_OF_PACKAGES = {
         ),
         _NAVIGATION,
     ),  # fmt: skip
-    'realsense2_camera': _SENSOR,
     'ros_gz_bridge': _NO_BRIDGE,
     'ros_gz_image': _NO_BRIDGE,
     'ros_gz_sim': _SIMULATOR,
-    'rplidar_ros': _SENSOR,
     'rqt': _GRAPH,
     'rqt_console': "'ros2 topic echo /rosout' prints the log of all nodes",
     'rqt_graph': _GRAPH,
@@ -107,15 +132,10 @@ INSTEAD_OF_PACKAGES = {
     'rqt_tf_tree': "'ros2 run tf2_tools view_frames' draws it",
     'rviz2': _PAGE,
     'slam_toolbox': _NAVIGATION,
-    'sllidar_ros2': _SENSOR,
     'teleop_twist_joy': _GAMEPAD,
     'turtlesim': (
         "the robot of 'ros2 launch amr_description simulation' does what its turtle does: it is "
         'driven by velocities, and seen on the page'
     ),
-    'urg_node': _SENSOR,
-    'usb_cam': _SENSOR,
-    'v4l2_camera': _SENSOR,
-    'velodyne_driver': _SENSOR,
 }
 """By package: what to do where it is not installed."""

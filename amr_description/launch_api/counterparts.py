@@ -78,9 +78,8 @@ def counterpart_of(package: str, executable: str) -> Counterpart | None:
         return Counterpart('create')
     if pair in STAND_INS:
         return Counterpart(STAND_INS[pair])
-    if package in INSTEAD_OF_PACKAGES and package not in _NEEDED:
-        return Counterpart(why=INSTEAD_OF_PACKAGES[package])
-    return None
+    why = why_left_out(package)
+    return Counterpart(why=why) if why else None
 
 
 def arguments_as_ours(executable: str, arguments: Sequence[str]) -> tuple[list[str], list[str]]:
@@ -150,6 +149,11 @@ def in_package(path: Path) -> tuple[str, str] | None:
         return None
     package, *below = path.relative_to(root).parts
     return package, '/'.join(below)
+
+
+def why_left_out(package: str) -> str:
+    """Return what to do without a package that stops no robot; '': it is needed, or known."""
+    return '' if package in _NEEDED else INSTEAD_OF_PACKAGES.get(package, '')
 
 
 def not_here(package: str, file: str, known: Sequence[str]) -> BringupError:

@@ -223,6 +223,11 @@ def _nothing() -> LaunchDescription:
     return LaunchDescription([LogInfo(msg=_NO_BRIDGE)])
 
 
+def left_out(package: str, file: str, why: str) -> LaunchDescription:
+    """Return what is there of a launch file of a package that stops no robot: a line."""
+    return LaunchDescription([LogInfo(msg=f'{package} {Path(file).name} is left out: {why}')])
+
+
 FILES: Mapping[str, Mapping[str, Callable[[], LaunchDescription]]] = {
     'gazebo_ros': {
         'launch/gazebo.launch.py': _classic,

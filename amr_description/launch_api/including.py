@@ -15,7 +15,7 @@ from amr_description.errors import AmrError, BringupError
 from amr_description.launch_api import gazebo_files
 from amr_description.launch_api.actions import SetLaunchConfiguration
 from amr_description.launch_api.context import LaunchContext
-from amr_description.launch_api.counterparts import in_package, not_here
+from amr_description.launch_api.counterparts import in_package, not_here, why_left_out
 from amr_description.launch_api.descriptions import (
     Action,
     declared_arguments,
@@ -46,9 +46,11 @@ def read(path: Path) -> LaunchDescription:
     if (known := in_package(path)) is not None:
         package, file = known
         files = gazebo_files.FILES.get(package, {})
-        if file not in files:
-            raise not_here(package, file, list(files))
-        return files[file]()
+        if file in files:
+            return files[file]()
+        if why := why_left_out(package):
+            return gazebo_files.left_out(package, file, why)
+        raise not_here(package, file, list(files))
     if not path.is_file():
         near = [each.name for each in path.parent.glob('*')]
         raise refusal(f"there is no launch file '{path}'{did_you_mean(path.name, near)}", '')

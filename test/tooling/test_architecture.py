@@ -49,12 +49,12 @@ FEW_LINES = 80
 # Launch files of others are tried one by one, as robots are.
 BUDGETS = {
     'modules': 845,
-    'code lines': 97_267,
+    'code lines': 97_291,
     'small modules of one importer beside them': 40,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_676,
+    'code lines of helpers in test files': 26_686,
 }
 
 BASE = {

@@ -14,10 +14,11 @@ from launch import LaunchDescription
 from launch.actions import *
 from launch.conditions import IfCondition
 from launch.events import matches_action
-from launch.substitutions import LaunchConfiguration
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import *
 from launch_ros.descriptions import ComposableNode
 from launch_ros.event_handlers import OnStateTransition
+from launch_ros.substitutions import FindPackageShare
 from launch_ros.events.lifecycle import ChangeState
 from lifecycle_msgs.msg import Transition
 from ros_gz_bridge.actions import RosGzBridge
@@ -59,6 +60,7 @@ def asks(transition):
         ('joy_linux', 'joy_linux_node', "'ros2 run joy joy_node'"),
         ('rqt_graph', 'rqt_graph', "'ros2 node list'"),
         ('rplidar_ros', 'rplidar_node', 'the simulator measures by the <gazebo><sensor>'),
+        ('depthai_ros_driver', 'camera_node', 'the simulator measures by the <gazebo><sensor>'),
         ('nav2_amcl', 'amcl', 'it runs on a machine with ROS 2 Jazzy beside the simulator'),
         ('ros_gz_image', 'image_bridge', 'no bridge is needed'),
     ],
@@ -74,6 +76,30 @@ def test_what_cannot_be_here_is_left_out_and_the_rest_comes_up(
     (note,) = notes(stack)
     assert note.startswith(f'{package} {executable}'.replace('rqt_graph rqt_graph', 'rqt_graph'))
     assert f'is left out: {instead}' in note or instead in note
+
+
+@pytest.mark.parametrize(
+    ('package', 'file', 'instead'),
+    [
+        ('ld08_driver', 'ld08.launch.py', 'it is the driver of a device'),
+        ('nav2_bringup', 'navigation_launch.py', 'it runs on a machine with ROS 2 Jazzy'),
+        ('teleop_twist_joy', 'teleop-launch.py', "'ros2 run joy joy_node' and"),
+    ],
+)
+def test_an_included_file_of_what_cannot_be_here_is_left_out(launch, package, file, instead):
+    stack = launch(f"""DeclareLaunchArgument('map', default_value='x'),
+        IncludeLaunchDescription(PathJoinSubstitution([FindPackageShare('{package}'),
+            'launch', '{file}']), launch_arguments={{'map': 'y'}}.items()),
+        Node(package='toys', executable='a'),""")
+    assert [name for name, *_ in commands(stack)] == ['a-1']
+    (note,) = notes(stack)
+    assert note.startswith(f'{package} {file} is left out: {instead}')
+
+
+def test_an_included_file_of_the_simulator_is_needed(launch):
+    with pytest.raises(BringupError, match="'launch/x.launch.py' of it has nothing in its place"):
+        launch("""IncludeLaunchDescription(PathJoinSubstitution([FindPackageShare('ros_gz_sim'),
+            'launch', 'x.launch.py'])),""")
 
 
 def test_a_joystick_beside_the_robot_is_started_by_nodes_of_ours(launch):
