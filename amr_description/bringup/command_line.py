@@ -109,9 +109,10 @@ class ProcessSpec:
         """The command line, as launch builds it."""
         node = self.node
         prefix = shlex.split(node.prefix or self.launch_prefix)
-        if node.command is not None:
-            return [*prefix, *map(str, node.command)]
-        words = [*prefix, str(self.executable), *map(str, node.arguments)]
+        words = prefix + [str(each) for each in node.command or (str(self.executable),)]
+        if node.command is not None and not node.is_ros:
+            return words
+        words += map(str, node.arguments)
         words.append('--ros-args')
         if node.name:
             words += ['-r', f'__node:={node.name}']
@@ -198,7 +199,7 @@ def check_prefix(prefix: str) -> None:
 
 
 def process_specs(
-    stack: Stack, folder: Path, prefix: LaunchPrefix | None = None
+    stack: Stack, folder: Path, prefix: LaunchPrefix | None = None, first: int = 1
 ) -> list[ProcessSpec]:
     """
     Prepare the processes of a stack, in the order of its nodes; starts and writes nothing.
@@ -208,6 +209,7 @@ def process_specs(
         folder: where parameter files will be written: the log folder, so that they stay readable,
             the printed command line can be typed again and no temporary file is left behind.
         prefix: that of all command lines.
+        first: the number of the first node, in its name.
 
     Raises:
         BringupError: a parameter or a prefix is invalid.
@@ -216,7 +218,7 @@ def process_specs(
     prefix = prefix or LaunchPrefix()
     return [
         _process_spec(resolved, number, folder, prefix)
-        for number, resolved in enumerate(Placement(stack).nodes, start=1)
+        for number, resolved in enumerate(Placement(stack).nodes, start=first)
     ]
 
 

@@ -120,6 +120,7 @@ _NODE_FIELDS = {
     ),
     'terminal': validation.BOOLEAN,
     'command': validation.ARGUMENTS.or_none(),
+    'is_ros': validation.BOOLEAN,
     'folder': validation.VALUE.or_none(),
     'on_output': validation.FUNCTION.or_none(),
 }
@@ -177,6 +178,8 @@ class Node(NodeRef):
     """Whether it reads keys and needs the terminal, see terminal.py; at most one in a stack."""
     command: Sequence[str] | None = None
     """The words of a program that is no executable of a package, as of launch's ExecuteProcess."""
+    is_ros: bool = False
+    """Whether such a program is a ROS node: its command line goes on with ``--ros-args``."""
     folder: str | Path | None = None
     """Where it is started; None: where the bring-up is."""
     on_output: LineHandler | None = None

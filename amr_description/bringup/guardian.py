@@ -24,6 +24,8 @@ import time
 from typing import NamedTuple
 
 RUN_VARIABLE = 'AMR_BRINGUP_RUN'
+NOBODY = -1
+"""In place of the orchestrator's pid: it has children that are not of the run."""
 _KILL_DELAY = 2.0  # s from SIGINT to SIGKILL
 _GIVE_UP = 4.0  # s after which a process that even SIGKILL does not end is reported
 _POLL_PERIOD = 0.02  # s, at first: most end at once

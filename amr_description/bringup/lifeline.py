@@ -33,22 +33,30 @@ _PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
 class Lifeline:
     """The pipe, and the guardian that waits at its reading end."""
 
-    def __init__(self, run: str) -> None:
+    def __init__(self, run: str, *, adopts: bool = True) -> None:
         """
         Open the pipe and start the guardian.
 
         Args:
             run: the name of the run, unique on this machine.
+            adopts: whether orphans become children of this process, which has no other ones.
         """
         self._run = run
         self.reader, self._writer = os.pipe()
-        become_subreaper()
+        self._adopts = adopts
+        if adopts:
+            become_subreaper()
         self._guardian = self._start_guardian()
 
     @property
     def variables(self) -> dict[str, str]:
         """The environment variables for the children, see the module's docstring."""
         return {LIFELINE_VARIABLE: str(self.reader), guardian.RUN_VARIABLE: self._run}
+
+    @property
+    def guardian_pid(self) -> int:
+        """The process id of the guardian."""
+        return self._guardian.pid
 
     def revive_guardian(self) -> bool:
         """Start the guardian again if somebody ended it; return whether that was needed."""
@@ -64,6 +72,8 @@ class Lifeline:
         Args:
             children: the pids of its own children, which their Popen objects reap.
         """
+        if not self._adopts:
+            return
         with contextlib.suppress(ChildProcessError):
             while ended := os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT):
                 if ended.si_pid in children | {self._guardian.pid}:
@@ -87,7 +97,9 @@ class Lifeline:
 
     def _start_guardian(self) -> subprocess.Popen[bytes]:
         program = str(Path(guardian.__file__))
-        arguments = [str(self.reader), self._run, str(os.getpid())]
+        # Where it has other children, only the mark of the run says which are to be ended.
+        root = os.getpid() if self._adopts else guardian.NOBODY
+        arguments = [str(self.reader), self._run, str(root)]
         environment = {k: v for k, v in os.environ.items() if k != guardian.RUN_VARIABLE}
         return subprocess.Popen(
             [sys.executable, '-I', '-S', program, *arguments],

@@ -17,8 +17,10 @@ import asyncio
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 import contextlib
 import functools
+import os
 import signal
 import time
+from typing import Protocol
 
 from amr_description.bringup.command_line import ProcessSpec
 from amr_description.bringup.console import Console
@@ -44,6 +46,27 @@ _GUARDIAN_TIMEOUT = 5.0  # s; it gives up after four
 _ESCALATION = ((signal.SIGINT, 5.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, None))
 
 
+class Observer(Protocol):
+    """
+    A program that runs a stack beside other things, as a test does, and is told what happens.
+
+    Signals and other children of its process are its own: :meth:`Orchestrator.stop` ends the
+    stack. All is called on the event loop, which may be that of any thread.
+    """
+
+    def started(self, node: Node, command: Sequence[str], pid: int) -> None:
+        """Note that a process was started."""
+        ...
+
+    def output(self, node: Node, line: str) -> None:
+        """Note a line of its output; one of stderr is an :class:`~.process.ErrorLine`."""
+        ...
+
+    def ended(self, node: Node, returncode: int) -> None:
+        """Note that it has ended, or could not be started: all its lines were given."""
+        ...
+
+
 class Orchestrator:
     """Runs one stack, once."""
 
@@ -55,6 +78,7 @@ class Orchestrator:
         run_name: str,
         environment: Mapping[str, str],
         events: EventLog,
+        observer: Observer | None = None,
     ) -> None:
         """
         Prepare a run.
@@ -66,7 +90,9 @@ class Orchestrator:
             run_name: unique on this machine.
             environment: the environment variables of the children.
             events: where events for programs go.
+            observer: who runs it beside other things; None: the process is there for it alone.
         """
+        self._observer = observer
         self._specs: dict[Node, ProcessSpec] = {spec.node: spec for spec in specs}
         self._run_name = run_name
         self._environment = environment
@@ -89,7 +115,8 @@ class Orchestrator:
     async def run(self) -> int:
         """Run the stack to its end; return the exit code. No process is left when it returns."""
         with self._signal_handlers():
-            self._lifeline = Lifeline(self._run_name)
+            self._lifeline = Lifeline(self._run_name, adopts=self._observer is None)
+            self._wake_at_end(self._lifeline.guardian_pid)
             self._fork_server = self._start_fork_server()
             try:
                 await self._fork_server_is_ready()
@@ -108,8 +135,29 @@ class Orchestrator:
         reason = self._scheduler.failure or self._scheduler.shutdown
         return self._exit_code if reason is None else reason.exit_code
 
+    def stop(self, reason: str) -> None:
+        """End the stack; call it on the event loop."""
+        self._stop_reason = reason
+        self._request_stop()
+
+    def _wake_at_end(self, pid: int) -> None:
+        """Be woken when a process ends, where SIGCHLD is another's."""
+        if self._observer is None:
+            return
+        loop, descriptor = asyncio.get_running_loop(), os.pidfd_open(pid)
+
+        def on_end() -> None:
+            loop.remove_reader(descriptor)
+            os.close(descriptor)
+            self._wake.set()
+
+        loop.add_reader(descriptor, on_end)
+
     @contextlib.contextmanager
     def _signal_handlers(self) -> Iterator[None]:
+        if self._observer is not None:
+            yield
+            return
         loop = asyncio.get_running_loop()
         # SIGHUP stays ignored under nohup. SIGINT is handled even where it was ignored (a job in
         # the background of a script): whoever sends it wants the stack to stop.
@@ -143,7 +191,7 @@ class Orchestrator:
     def _start_fork_server(self) -> ForkServer | None:
         """Start what starts executables of this package; None: there are less than two."""
         specs = [spec for spec in self._specs.values() if spec.is_forkable]
-        if len(specs) < 2:
+        if len(specs) < 2 or self._observer is not None:  # it needs what adopts orphans
             return None
         names = dict.fromkeys(spec.node.executable for spec in specs)
         environment = child_environment(specs[0].executable, self._environment)
@@ -222,6 +270,8 @@ class Orchestrator:
             self._reporter.not_started(node, reason)
             self._last_lines[node] = [reason]
             self._scheduler.on_exit(node, CANNOT_START, [reason])
+            if self._observer is not None:
+                self._observer.ended(node, CANNOT_START)
             self._reporter.respawn(node, self._scheduler.state, [reason])
             self._wake.set()
             return
@@ -230,6 +280,9 @@ class Orchestrator:
         self._children[node] = child
         self._last_lines[node] = child.last_lines
         self._reporter.started(node, child.pid)
+        self._wake_at_end(child.pid)
+        if self._observer is not None:
+            self._observer.started(node, spec.command, child.pid)
 
     def _spawn(self, spec: ProcessSpec, environment: Mapping[str, str]) -> RunningProcess:
         reader, reporter = self._lifeline.reader, self._reporter
@@ -238,7 +291,8 @@ class Orchestrator:
                 on_line = functools.partial(self._on_line, spec.node)
                 server = self._fork_server if spec.is_forkable else None
                 folder = spec.node.folder
-                return Child(spec.command, environment, reader, on_line, server, folder)
+                splits = self._observer is not None
+                return Child(spec.command, environment, reader, on_line, server, folder, splits)
             reporter.progress(self._scheduler)  # while all of it can still be seen
             reporter.lending_terminal(spec.node)
             try:
@@ -249,6 +303,8 @@ class Orchestrator:
 
     def _on_line(self, node: Node, line: str) -> None:
         self._reporter.output(node, line)
+        if self._observer is not None:
+            self._observer.output(node, line)
         if self._scheduler.on_line(node, line):
             self._wake.set()
 
@@ -259,7 +315,9 @@ class Orchestrator:
         """Start a program of the bring-up itself."""
         environment = {**self._environment, 'PYTHONUNBUFFERED': '1', **self._lifeline.variables}
         with signal_blocked(signal.SIGINT):
-            return Child(command, environment, self._lifeline.reader, on_line)
+            child = Child(command, environment, self._lifeline.reader, on_line)
+        self._wake_at_end(child.pid)
+        return child
 
     async def _diagnose(self) -> None:
         """Have the doctor look for the cause of a start that failed, while the rest runs."""
@@ -290,8 +348,11 @@ class Orchestrator:
                 if node.terminal and child.died_of_ctrl_c:  # only its process group gets that one
                     self._on_stop_signal(signal.SIGINT)
                 self._scheduler.on_exit(node, child.returncode, list(child.last_lines))
+                if self._observer is not None:
+                    self._observer.ended(node, child.returncode)
                 self._reporter.respawn(node, self._scheduler.state, child.last_lines)
         if self._lifeline.revive_guardian():
+            self._wake_at_end(self._lifeline.guardian_pid)
             self._reporter.guardian_replaced()
         self._lifeline.reap_adopted(self._running_pids())
 

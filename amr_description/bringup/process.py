@@ -101,6 +101,7 @@ class Child(RunningProcess):
         on_line: Callable[[str], None],
         fork_server: ForkServer | None = None,
         folder: str | Path | None = None,
+        splits: bool = False,
     ) -> None:
         """
         Start the process.
@@ -116,48 +117,93 @@ class Child(RunningProcess):
             on_line: called with each line of its stdout and stderr, without line end.
             fork_server: starts it, if it can; it has ``inherit`` already.
             folder: where it is started; None: here.
+            splits: whether lines of stderr are to be told apart, as :class:`ErrorLine`; by one
+                pipe for both outputs the order of their lines stays.
 
         Raises:
             OSError: the operating system cannot start it.
         """
-        reader, writer = os.pipe()  # one pipe for both outputs: the order of the lines stays
+        pipes = [os.pipe() for _ in range(2 if splits else 1)]
+        readers, writers = [reader for reader, _ in pipes], [writer for _, writer in pipes]
         try:
-            process = _forked(fork_server, command, environment, writer) or subprocess.Popen(
+            process = _forked(fork_server, command, environment, writers[0]) or subprocess.Popen(
                 command,
                 env=environment,
                 stdin=subprocess.DEVNULL,
-                stdout=writer,
-                stderr=writer,
+                stdout=writers[0],
+                stderr=writers[-1],
                 pass_fds=(inherit,),
                 start_new_session=True,
                 cwd=folder,
             )
         except OSError:
-            os.close(reader)
+            for reader in readers:
+                os.close(reader)
             raise
         finally:
-            os.close(writer)
-        os.set_blocking(reader, False)
+            for writer in writers:
+                os.close(writer)
         super().__init__(process)
-        self._reader: int | None = reader
         self._on_line = on_line
-        self._splitter = LineSplitter()
-        asyncio.get_running_loop().add_reader(reader, self._read)
+        kinds: tuple[type[str], ...] = (str, ErrorLine)
+        self._outputs = [
+            _Output(reader, kind, self._pass_on)
+            for reader, kind in zip(readers, kinds, strict=False)
+        ]
 
     def poll(self) -> bool:
         """As in the base class."""
         if not super().poll():
             return False
-        self._drain()
+        for output in self._outputs:
+            output.drain()
         return True
 
     def close(self) -> None:
         """Stop reading its output, which its own children may still hold open."""
+        for output in self._outputs:
+            output.close()
+
+    def _pass_on(self, line: str) -> None:
+        self.last_lines.append(line)
+        self._on_line(line)
+
+
+class ErrorLine(str):
+    """A line of stderr, where it is told apart from those of stdout."""
+
+    __slots__ = ()
+
+
+class _Output:
+    """What comes through one pipe, line by line."""
+
+    def __init__(self, reader: int, kind: type[str], on_line: Callable[[str], None]) -> None:
+        os.set_blocking(reader, False)
+        self._reader: int | None = reader
+        self._kind = kind
+        self._on_line = on_line
+        self._splitter = LineSplitter()
+        asyncio.get_running_loop().add_reader(reader, self._read)
+
+    def close(self) -> None:
+        """Stop reading."""
         if self._reader is not None:
             asyncio.get_running_loop().remove_reader(self._reader)
             os.close(self._reader)
             self._reader = None
             self._pass_on(self._splitter.flush())
+
+    def drain(self) -> None:
+        """Read what is in the pipe now, but not what other processes still write into it."""
+        if self._reader is None:
+            return
+        waiting = fcntl.ioctl(self._reader, termios.FIONREAD, bytes(4))
+        size = int.from_bytes(waiting, 'little')
+        while size > 0 and self._reader is not None:
+            self._read(min(size, _READ_SIZE))
+            size -= _READ_SIZE
+        self._pass_on(self._splitter.flush())
 
     def _read(self, size: int = _READ_SIZE) -> None:
         try:
@@ -169,21 +215,9 @@ class Child(RunningProcess):
         else:
             self.close()
 
-    def _drain(self) -> None:
-        """Read what is in the pipe now, but not what other processes still write into it."""
-        if self._reader is None:
-            return
-        waiting = fcntl.ioctl(self._reader, termios.FIONREAD, bytes(4))
-        size = int.from_bytes(waiting, 'little')
-        while size > 0 and self._reader is not None:
-            self._read(min(size, _READ_SIZE))
-            size -= _READ_SIZE
-        self._pass_on(self._splitter.flush())
-
     def _pass_on(self, lines: list[str]) -> None:
         for line in lines:
-            self.last_lines.append(line)
-            self._on_line(line)
+            self._on_line(line if self._kind is str else self._kind(line))
 
 
 def _forked(
