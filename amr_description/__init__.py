@@ -30,6 +30,7 @@ Drive a physically true ROS 2 robot: model, control, simulation, bring-up and co
 ``nodes/``              executables, one a ``ros2 run amr_description NAME``
 ``bringup/``            the launcher: stacks, conditions, processes
 ``launch_api/``         launch files of ROS: ``import launch``, ``import launch_ros``
+``launch_testing/``     tests that launch processes: ``launch_testing``, ``launch_pytest``
 ``cli/``                the ``ros2`` command and ``check_urdf``
 ``workspace/``          what ``colcon build`` of packages of users needs
 ``interface_build/``    message packages: what CMake of a workspace calls, and wheels of them

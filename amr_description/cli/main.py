@@ -30,6 +30,7 @@ from amr_description.registry import resolve
 PROGRAMS = {
     'ros2': 'amr_description.cli.ros2',
     'check_urdf': 'amr_description.cli.check_urdf',
+    'launch_test': 'amr_description.launch_testing.command',
 }
 _FULL = (errno.ENOSPC, errno.EDQUOT)
 

@@ -7,16 +7,20 @@ A package that is known here, but not installed, has a share folder where nothin
 of it may be included if there is one of ours in its place (``gazebo_files.py``).
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+import ament_index_python
 from ament_index_python import get_package_prefix
+import ament_index_python.packages
 from ament_index_python.packages import PackageNotFoundError
 
 from amr_description.ament_index import is_installed, own_share, stands_in
 from amr_description.errors import BringupError
-from amr_description.launch_api.locations import refusal
+from amr_description.launch_api.locations import at, caller, refusal
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES, STAND_INS
 
 _FOLDER = 'not_installed'
@@ -165,3 +169,33 @@ def not_here(package: str, file: str, known: Sequence[str]) -> BringupError:
         f'there are {", ".join(known)}',
         '',
     )
+
+
+@contextmanager
+def folders_of_known_packages() -> Iterator[None]:
+    """Have ament_index_python know the packages in whose place something is here."""
+    folders = {
+        'get_package_prefix': prefix_of,
+        'get_package_share_directory': share_of,
+    }
+    modules = (ament_index_python, ament_index_python.packages)
+    originals = {name: getattr(ament_index_python.packages, name) for name in folders}
+
+    def replacing(name: str) -> Any:
+        def find(package_name: str, **_kwargs: Any) -> str:
+            try:
+                return folders[name](package_name)
+            except PackageMissing as error:
+                raise at(error, caller()) from None
+
+        return find
+
+    for module in modules:
+        for name in folders:
+            setattr(module, name, replacing(name))
+    try:
+        yield
+    finally:
+        for module in modules:
+            for name in folders:
+                setattr(module, name, originals[name])

@@ -51,6 +51,14 @@ class Action(LaunchDescriptionEntity):
         return None
 
 
+class Occurrence(Action):
+    """An action that is done when its time has come, and not while the description is visited."""
+
+    def occur(self, context: LaunchContext) -> None:
+        """Do it; called on the thread that runs the processes."""
+        raise NotImplementedError(f'{type(self).__name__}.occur')
+
+
 class LaunchDescription(LaunchDescriptionEntity):
     """What ``generate_launch_description`` returns."""
 

@@ -38,6 +38,20 @@ class Shutdown(Event):
 
 
 @dataclass(frozen=True)
+class IncludeRequest(Event):
+    """A description is to run, too; by a LaunchService that runs."""
+
+    launch_description: Any
+
+
+@dataclass(frozen=True)
+class ShutdownProcess(Event):
+    """Processes are to end; by a LaunchService that runs: with what was included with them."""
+
+    process_matcher: Callable[[Any], bool]
+
+
+@dataclass(frozen=True)
 class ProcessEvent(Event):
     """Something about a process."""
 
@@ -45,6 +59,7 @@ class ProcessEvent(Event):
     name: str
     """As on the screen: ``create-3``."""
     cmd: Sequence[str] = ()
+    pid: int | None = None
 
     @property
     def process_name(self) -> str:
@@ -131,6 +146,14 @@ class OnShutdown(Handler):
 
     def __init__(self, *, on_shutdown: SomeActions, **kwargs: Any) -> None:
         super().__init__(None, on_shutdown, **kwargs)
+
+
+class OnLine(Handler):
+    """When a process has written a line with a text: of launch_testing."""
+
+    def __init__(self, *, target_action: object, text: str, actions: SomeActions) -> None:
+        super().__init__(target_action, actions)
+        self.text = text
 
 
 class OnProcessIO(Handler):

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+import re
 from typing import Any, Protocol
 
 from amr_description.bringup import handlers
@@ -21,12 +22,14 @@ from amr_description.bringup.conditions import (
     Condition,
     exited,
     exited_cleanly,
+    logged,
     NodeRef,
     StackState,
     started,
 )
 from amr_description.bringup.description import Node as StackNode
 from amr_description.bringup.handlers import EventHandler, Level, Stopping
+from amr_description.bringup.process import ErrorLine
 from amr_description.errors import BringupError
 from amr_description.launch_api.actions import EmitEvent, Log, TimerAction
 from amr_description.launch_api.context import LaunchContext
@@ -36,6 +39,7 @@ from amr_description.launch_api.events import (
     ExecutionComplete,
     Handler,
     OnExecutionComplete,
+    OnLine,
     OnProcessExit,
     OnProcessIO,
     OnProcessStart,
@@ -270,11 +274,18 @@ class Handling:
         name = self._name_of(made.node)
 
         def on_line(line: str) -> handlers.Reaction:
-            event = ProcessIO(action, name, text=f'{line}\n'.encode())
+            event = io_event(action, name, line)
             results = [function(event) for function in dict.fromkeys(handler.functions)]
             return _reactions(results, context)
 
         listeners.functions.append(on_line)
+
+
+def io_event(action: object, name: str, line: str) -> ProcessIO:
+    """Return the event of a line, which may be known to be one of stderr."""
+    is_error = isinstance(line, ErrorLine)
+    text = f'{line}\n'.encode()
+    return ProcessIO(action, name, text=text, from_stdout=not is_error, from_stderr=is_error)
 
 
 _NEVER = all_of()
@@ -291,6 +302,8 @@ def _condition(handler: Handler, action: Action, made: Started) -> Condition | N
         return made.when if isinstance(handler, OnProcessStart) else _NEVER
     if isinstance(handler, OnProcessStart):
         return started(made.node)
+    if isinstance(handler, OnLine):
+        return logged(made.node, re.escape(handler.text))
     if isinstance(handler, OnProcessExit | OnExecutionComplete):
         return exited(made.node)
     raise refusal(f'{type(handler).__name__} is not understood here', '')

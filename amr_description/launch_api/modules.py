@@ -14,12 +14,10 @@ from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 import importlib.util
 import logging
+from pathlib import Path
 import sys
 from types import ModuleType
 from typing import Any, NoReturn
-
-import ament_index_python
-import ament_index_python.packages
 
 from amr_description.launch_api import (
     actions,
@@ -37,9 +35,10 @@ from amr_description.launch_api import (
     processes,
     rewriting,
     ros_actions,
+    service,
     substitutions,
 )
-from amr_description.launch_api.locations import at, caller, refusal
+from amr_description.launch_api.locations import caller, refusal
 from amr_description.text import did_you_mean
 
 
@@ -71,6 +70,7 @@ _PARAMETERS = {
     'ParameterValue': parameters.ParameterValue,
 }
 _LAUNCH_DESCRIPTION = {'LaunchDescription': descriptions.LaunchDescription}
+_SERVICE = {'LaunchService': service.LaunchService}
 _CONTEXT = {'LaunchContext': context.LaunchContext}
 _ENTITY = {'LaunchDescriptionEntity': descriptions.LaunchDescriptionEntity}
 _SUBSTITUTION = {'Substitution': substitutions.Substitution}
@@ -80,6 +80,7 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
     'launch': {
         **_LAUNCH_DESCRIPTION,
         **_CONTEXT,
+        **_SERVICE,
         **_ENTITY,
         **_SUBSTITUTION,
         **_SOME_SUBSTITUTIONS,
@@ -138,13 +139,17 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
         'OnShutdown',
     ),
     'launch.events': {
+        'IncludeLaunchDescription': events.IncludeRequest,
         'Shutdown': events.Shutdown,
         'matches_action': lifecycle.matches_action,
     },
-    'launch.events.process': _of(events, 'ProcessExited', 'ProcessIO', 'ProcessStarted'),
+    'launch.events.process': _of(
+        events, 'ProcessExited', 'ProcessIO', 'ProcessStarted', 'ShutdownProcess'
+    ),
     'launch.launch_context': _CONTEXT,
     'launch.launch_description': _LAUNCH_DESCRIPTION,
     'launch.launch_description_entity': _ENTITY,
+    'launch.launch_service': _SERVICE,
     'launch.launch_description_source': {
         'LaunchDescriptionSource': including.LaunchDescriptionSource
     },
@@ -227,6 +232,8 @@ UNDERSTOOD: Mapping[str, Mapping[str, Any]] = {
 }
 """Module -> its names. A module below one of these has the names of that."""
 
+_BESIDE_OURS = 'amr_description.pth'
+"""Lies in site-packages, where set-up writes modules that call :func:`provide`."""
 _ROOTS = {name.partition('.')[0] for name in UNDERSTOOD}
 
 
@@ -304,7 +311,21 @@ class _Finder(MetaPathFinder, Loader):
 
 def is_installed() -> bool:
     """Return whether the real ``launch`` and ``launch_ros`` can be imported."""
-    return all(importlib.util.find_spec(name) is not None for name in ('launch', 'launch_ros'))
+    return all(map(_is_real, ('launch', 'launch_ros')))
+
+
+def _is_real(name: str) -> bool:
+    spec = importlib.util.find_spec(name)
+    if spec is None or spec.origin is None:
+        return False
+    return not Path(spec.origin).parents[1].joinpath(_BESIDE_OURS).exists()
+
+
+def provide(name: str) -> None:
+    """Fill a module that is being imported, one of ``_ROOTS``, for programs such as tests."""
+    if not any(isinstance(each, _Finder) for each in sys.meta_path):
+        sys.meta_path.append(_Finder())  # behind those that find packages of a workspace
+    _Finder().exec_module(sys.modules[name])
 
 
 @contextmanager
@@ -317,7 +338,7 @@ def understood() -> Iterator[None]:
     sys.meta_path.insert(0, finder)
     including.forget_open_files()
     try:
-        with _folders_of_known_packages():
+        with counterparts.folders_of_known_packages():
             yield
     finally:
         sys.meta_path.remove(finder)
@@ -328,33 +349,3 @@ def understood() -> Iterator[None]:
 
 def _is_ours(name: str) -> bool:
     return name.partition('.')[0] in _ROOTS
-
-
-@contextmanager
-def _folders_of_known_packages() -> Iterator[None]:
-    """Have ament_index_python know the packages in whose place something is here."""
-    folders = {
-        'get_package_prefix': counterparts.prefix_of,
-        'get_package_share_directory': counterparts.share_of,
-    }
-    modules = (ament_index_python, ament_index_python.packages)
-    originals = {name: getattr(ament_index_python.packages, name) for name in folders}
-
-    def replacing(name: str) -> Any:
-        def find(package_name: str, **_kwargs: Any) -> str:
-            try:
-                return folders[name](package_name)
-            except counterparts.PackageMissing as error:
-                raise at(error, caller()) from None
-
-        return find
-
-    for module in modules:
-        for name in folders:
-            setattr(module, name, replacing(name))
-    try:
-        yield
-    finally:
-        for module in modules:
-            for name in folders:
-                setattr(module, name, originals[name])

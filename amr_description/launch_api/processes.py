@@ -1,9 +1,11 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""The actions that start a process: ExecuteProcess, Node."""
+"""The actions that start a process: ExecuteProcess, Node; what has become of it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 import inspect
+import os
+import threading
 from typing import Any
 
 from amr_description.launch_api.context import LaunchContext
@@ -16,7 +18,38 @@ from amr_description.text import did_you_mean, truth
 _TIMES = ('sigterm_timeout', 'sigkill_timeout', 'signal_lifecycle')
 _HOW_IT_IS_SHOWN = ('output', 'output_format', 'emulate_tty', 'cached_output', 'log_cmd')
 _NOT_NAMES = ('self', 'kwargs', 'others')
-_OTHERS = ('name', 'respawn_max_retries', 'exec_name', 'sigkill_timeout')
+_OTHERS = ('respawn_max_retries', 'sigkill_timeout')
+
+
+class ProcessRecord:
+    """What has become of a process so far; tests read it on other threads."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self.details: dict[str, Any] | None = None
+        """``name``, ``cmd``, ``cwd``, ``env`` and ``pid``; None: it was not started."""
+        self.return_code: int | None = None
+        """Exit code, or minus the number of the signal that ended it."""
+        self.output = {'stdout': '', 'stderr': ''}
+
+    def change(self, change: Callable[['ProcessRecord'], None]) -> None:
+        """Write something down, and wake who waits."""
+        with self._changed:
+            change(self)
+            self._changed.notify_all()
+
+    def wait_for(
+        self, predicate: Callable[['ProcessRecord'], object], timeout: float | None = None
+    ) -> bool:
+        """
+        Wait until something is true of it; return whether it is.
+
+        Args:
+            predicate: Asked at each change.
+            timeout: s; None: as long as it takes.
+        """
+        with self._changed:
+            return bool(self._changed.wait_for(lambda: predicate(self), timeout))
 
 
 class ExecuteProcess(Action):
@@ -35,10 +68,14 @@ class ExecuteProcess(Action):
         respawn: bool | SomeSubstitutions = False,
         respawn_delay: float | SomeSubstitutions | None = None,
         respawn_max_retries: int = -1,
+        name: SomeSubstitutions | None = None,
+        exec_name: SomeSubstitutions | None = None,
         condition: Any = None,
         **others: Any,
     ) -> None:
         super().__init__(condition=condition)
+        self.exec_name = name if exec_name is None else exec_name
+        self.record = ProcessRecord()
         odd = [each for each in others if each not in (*_TIMES, *_HOW_IT_IS_SHOWN, *_OTHERS)]
         if odd:
             known = inspect.signature(type(self).__init__).parameters
@@ -60,6 +97,30 @@ class ExecuteProcess(Action):
         self.respawn = respawn
         self.respawn_delay = respawn_delay
         self.respawn_max_retries = respawn_max_retries
+
+    @property
+    def process_details(self) -> dict[str, Any] | None:
+        """As in launch."""
+        return self.record.details
+
+    @property
+    def return_code(self) -> int | None:
+        """As in launch: None until it has ended."""
+        return self.record.return_code
+
+    def get_stdout(self) -> str:
+        """Return what it has written so far; cached in any case here."""
+        return self.record.output['stdout']
+
+    def get_stderr(self) -> str:
+        """Return what it has written to stderr so far, where a test runs it."""
+        return self.record.output['stderr']
+
+    def label(self, context: LaunchContext) -> str:
+        """Return how it is called on the screen, without a number; '': after its program."""
+        if self.exec_name is None:
+            return ''
+        return os.path.basename(text_of(context, self.exec_name))
 
     def words(self, context: LaunchContext) -> list[str]:
         """Return the words of the command."""
@@ -115,7 +176,6 @@ class Node(ExecuteProcess):
         package: SomeSubstitutions | None = None,
         name: SomeSubstitutions | None = None,
         namespace: SomeSubstitutions | None = None,
-        exec_name: SomeSubstitutions | None = None,
         parameters: Any = None,
         remappings: Any = None,
         ros_arguments: Iterable[SomeSubstitutions] | None = None,

@@ -11,6 +11,7 @@ As in launch, a failure of a process stops nothing, waits have no timeout, and a
 ``on_exit=Shutdown()`` ends the launch when it ends: with its exit code.
 """
 
+import asyncio
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -34,6 +35,7 @@ from amr_description.bringup.conditions import (
     is_end_of_node,
     NodeRef,
     settled,
+    started,
     walk,
 )
 from amr_description.bringup.description import Node as StackNode, Respawn, Stack
@@ -55,7 +57,7 @@ from amr_description.launch_api.counterparts import (
     counterpart_of,
     require_package,
 )
-from amr_description.launch_api.descriptions import Action, LaunchDescription
+from amr_description.launch_api.descriptions import Action, LaunchDescription, Occurrence
 from amr_description.launch_api.events import OnProcessExit, Shutdown as ShutdownEvent
 from amr_description.launch_api.files_in_place import use_files_of_package
 from amr_description.launch_api.gazebo_files import (
@@ -234,6 +236,8 @@ class Translation:
                 self._ask(entity)
             case LoadComposableNodes():
                 self._replaced.left_out |= entity.left_out(self.context)
+            case Occurrence():
+                self._occur(entity)
             case GazeboPage():
                 self._add_page('the window of Gazebo')
             case _:
@@ -261,6 +265,13 @@ class Translation:
             return
         line = handlers.Log(text, level)
         self.event_handlers.append(EventHandler(self.when, lambda _: line, f"log '{text}'"))
+
+    def _occur(self, action: Occurrence) -> None:
+        """Have something done once all is started that stands before it and does not wait."""
+        waits = [started(node) for node in self.nodes if node.start_when is None]
+        when = self.when or (all_of(*waits) if waits else after(0.0))
+        occur = partial(_occurs, action, self.context.copy())
+        self.event_handlers.append(EventHandler(when, occur, type(action).__name__))
 
     def _ask(self, action: EmitEvent | LifecycleTransition) -> None:
         """Ask nodes for transitions, once all nodes of the file are known."""
@@ -318,11 +329,12 @@ class Translation:
 
     def _start_node(self, action: Node) -> None:
         context = self.context
-        if action.package is None:
-            raise refusal('Node without package= is not understood here', '')
-        package, executable = (text_of(context, t) for t in (action.package, action.executable))
-        other = counterpart_of(package, executable)
-        if other is None:
+        package = '' if action.package is None else text_of(context, action.package)
+        executable = text_of(context, action.executable)
+        other = counterpart_of(package, executable) if package else None
+        if not package:
+            pass  # a program by its path, or on the PATH
+        elif other is None:
             require_package(package)
             executable_of(package, executable)
         else:
@@ -355,9 +367,11 @@ class Translation:
         if package == OWN_PACKAGE and executable == _READS_KEYS and sys.stdin.isatty():
             common |= {'terminal': True, 'prefix': ''}  # no `xterm -e` is needed
         check_prefix(common['prefix'])
+        if not package:
+            common |= {'command': [executable], 'is_ros': True}
         node = StackNode(
-            executable,
-            package=package,
+            executable if package else action.label(context) or os.path.basename(executable),
+            package=package or OWN_PACKAGE,
             name=text_of(context, action.name).lstrip('/') or None if action.name else None,
             namespace=space or None,
             parameters=parameters,
@@ -390,7 +404,7 @@ class Translation:
             raise refusal('ExecuteProcess(cmd=[]): it takes the words of a command', '')
         if self._is_gazebo(words if not shell else shlex.split(' '.join(words)), action):
             return
-        label = os.path.basename(words[0].split()[0])
+        label = action.label(context) or os.path.basename(words[0].split()[0])
         command = ['/bin/sh', '-c', ' '.join(words)] if shell else words
         folder = None if action.cwd is None else text_of(context, action.cwd)
         if folder is not None and not Path(folder).is_dir():
@@ -466,6 +480,11 @@ def _logged(
         return handlers.Log(perform_substitutions(context, message), level)
     except BringupError as error:
         return handlers.Log(str(error), 'ERROR')
+
+
+def _occurs(action: Occurrence, context: LaunchContext, _state: object) -> None:
+    """Have it done once the processes are there whose start was the reason."""
+    asyncio.get_running_loop().call_soon(action.occur, context)
 
 
 def _full_name(node: NodeRef | None) -> str:

