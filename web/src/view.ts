@@ -210,7 +210,12 @@ export class View {
     store.watch(['graph'], () => {
       scene.hands = handsOf(this.app);
     });
-    acceptUrdf(this.app, this.element, (x, y) => scene.groundAt(x, y));
+    acceptUrdf(
+      this.app,
+      this.element,
+      (x, y) => scene.groundAt(x, y),
+      () => scene.footprints(),
+    );
     new ResizeObserver(() => scene.resize()).observe(this.canvas);
   }
 

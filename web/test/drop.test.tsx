@@ -47,6 +47,20 @@ test('what is no URDF is refused in a line that says what would do', async () =>
   }
 });
 
+test('nothing is dropped into what stands there', async () => {
+  const app = connectedApp();
+  const simulators = [{ id: '/sim', entities: ['amr'], world: '', worlds: [] }];
+  app.say({ type: 'graph', robots: [], simulators, hint: null, sensors: [], navigators: [] });
+  const file = new File(['<robot name="arm"/>'], 'arm.urdf');
+  const amr = { id: '/', x: 1, y: 2, yaw: 0, radius: 0.4 };
+  await takeDropped(app, file, [1.2, 2, 0.2], [amr]);
+  assert.deepEqual(app.sent, []);
+  assert.match(app.store.notices[0]!.text, /^arm\.urdf: something stands there; drop it where there is room/);
+  void takeDropped(app, file, [1.6, 2, 0.2], [amr]);
+  await new Promise((resolve) => setTimeout(resolve));
+  assert.equal(app.sent.length, 1);
+});
+
 test('where a description is only looked at, the file takes its place', async () => {
   const app = connectedApp();
   app.say(graphOf([robotInfo({ joint_publisher: '/joint_state_publisher' })]));

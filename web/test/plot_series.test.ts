@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { align } from '../src/plots/align';
-import { valueLabels } from '../src/plots/axis_labels';
+import { valueLabels, withinAxis } from '../src/plots/axis_labels';
 import { SPAN, Track } from '../src/plots/series';
 import { values } from './values';
 
@@ -126,4 +126,8 @@ test('what moves on by a step is otherwise the same picture', () => {
   };
   assert.deepEqual(inside(2), inside(2.1));
   assert.deepEqual(inside(2), inside(2.137));
+});
+
+test('a time that would run into the values beside it is left out', () => {
+  assert.deepEqual(withinAxis(['13:59:10', '13:59:20', '270 s'], [10, 27, 10], 6), ['', '13:59:20', '']);
 });

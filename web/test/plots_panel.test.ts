@@ -1,8 +1,8 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { test } from 'node:test';
-import { connectedApp, drawn, texts, type TestApp } from './page';
+import { mock, test } from 'node:test';
+import { connectedApp, drawn, graphOf, robotInfo, texts, type TestApp } from './page';
 import type { FieldFeed } from '../src/plots/following';
 import { Recorder } from '../src/plots/recorder';
 
@@ -71,6 +71,26 @@ test('the charts of the robot are there, that of the simulator where there is on
   const { panel } = plots();
   assert.deepEqual(shown(panel), ['Linear velocity', 'Angular velocity', 'Wheel speeds']);
   assert.deepEqual(texts(panel, '.chart:first-child th'), ['command', 'odometry', 'truth']);
+});
+
+test('a chart that is added is scrolled to, and those that were there are not', () => {
+  const { panel } = plots();
+  const scrolled: string[] = [];
+  mock.method(window.HTMLElement.prototype, 'scrollIntoView', function scroll(this: Element) {
+    scrolled.push(this.textContent);
+  });
+  panel.toggle(field);
+  panel.layout.reset();
+  assert.equal(scrolled.length, 1);
+  assert.match(scrolled[0]!, /^\/odom linear/);
+  mock.restoreAll();
+});
+
+test('a robot without wheels has no chart of their speeds', () => {
+  const { app, panel, recorder } = plots();
+  Object.assign(recorder, { of: () => ({ wheels: [], history: { column: () => null, latest: Number.NaN } }) });
+  app.say(graphOf([robotInfo()]));
+  assert.deepEqual(shown(panel), ['Linear velocity', 'Angular velocity']);
 });
 
 test('a field that is searched for is followed, kept, and said in the legend of its chart', async () => {

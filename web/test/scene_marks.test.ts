@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Box3, Matrix4, Vector3 } from 'three';
+import { Box3, Matrix4, Vector3, type Color } from 'three';
 import { axisLength } from '../src/scene/axes';
+import { NavigationLayer } from '../src/scene/navigation';
+import type { Ribbon } from '../src/scene/ribbon';
 import { RobotMark } from '../src/scene/robot_mark';
 import { Slots } from '../src/scene/slots';
 import { PALETTES } from '../src/scene/theme';
@@ -69,4 +71,27 @@ test('the arrow stands ahead of the robot, on what the robot stands on', () => {
   }
   mark.place(null);
   assert.equal(mark.object.visible, false);
+});
+
+test('the path to a goal that has ended fades, until the next one comes', () => {
+  const layer = new NavigationLayer(() => {}, (text) => assert.equal(text, ''));
+  layer.setPalette(PALETTES.light);
+  const head = { type: 'path', origin: { topic: '/plan', frame: 'map', stamp: 0 } };
+  const info = { topic: '/plan', robot: '/', kind: 'path' };
+  const plan = (): void => {
+    const floats = new Float32Array([0, 0, 0, 1, 0, 0]);
+    layer.take(info as never, { head, floats } as never);
+  };
+  plan();
+  const [, routes] = layer.object.children;
+  const colour = (): string => {
+    const { material } = routes!.children[0] as Ribbon['object'];
+    return `#${(material.uniforms as { colour: { value: Color } }).colour.value.getHexString()}`;
+  };
+  layer.setGoals([{ robot: '/', frame: 'map', x: 1, y: 0, yaw: 0 } as never]);
+  assert.equal(colour(), PALETTES.light.path);
+  layer.setGoals([]);
+  assert.equal(colour(), PALETTES.light.gridMajor);
+  plan();
+  assert.equal(colour(), PALETTES.light.path);
 });

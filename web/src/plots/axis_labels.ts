@@ -16,6 +16,11 @@ export function valueLabels(values: readonly number[], step: number): string[] {
   });
 }
 
+/** Labels that are centred on these places (CSS px from the left end), without those that reach beyond it. */
+export function withinAxis(labels: readonly string[], places: readonly number[], digit: number): string[] {
+  return labels.map((label, index) => ((places[index] ?? 0) < (label.length * digit) / 2 ? '' : label));
+}
+
 /** Times as they stand below a chart: "12 s", or of a clock, "14:03:20". */
 export function timeLabels(times: readonly number[]): string[] {
   const isFine = times.some((time) => !Number.isInteger(Number(time.toFixed(3))));

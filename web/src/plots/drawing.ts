@@ -5,7 +5,7 @@ import uPlot from 'uplot';
 import { h } from '../dom';
 import { colour } from '../theme';
 import { align } from './align';
-import { timeLabels, valueLabels } from './axis_labels';
+import { timeLabels, valueLabels, withinAxis } from './axis_labels';
 import type { Bounds } from './layout';
 import type { ChartLines, Source, Stroke } from './lines';
 import type { Series } from './series';
@@ -173,7 +173,15 @@ export class Drawing {
         y: { range: (_plot, least, most) => this.spanOf(least, most) },
       },
       axes: [
-        { ...axis, size: AXIS.height, gap: 3, space: 44, values: (_plot, times) => timeLabels(times) },
+        {
+          ...axis,
+          size: AXIS.height,
+          gap: 3,
+          space: 44,
+          // One beside the least value would run into it.
+          values: (plot, times) =>
+            withinAxis(timeLabels(times), times.map((time) => plot.valToPos(time, 'x')), AXIS.digit),
+        },
         {
           ...axis,
           gap: 4,

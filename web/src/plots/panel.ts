@@ -12,7 +12,7 @@ import { Chart, timeText, type ChartPort } from './chart';
 import type { Reader } from './drawing';
 import { droppedField, isField, parseField, type Field } from './field';
 import { Following, type FieldFeed } from './following';
-import { PlotLayout } from './layout';
+import { PlotLayout, type ChartSpec } from './layout';
 import { chartLines, type Line, type Source } from './lines';
 import { Offers } from './offers';
 import type { Recorder } from './recorder';
@@ -152,6 +152,7 @@ export class PlotsPanel implements Panel {
   /** One chart for each of the layout, in its order. */
   private arrange(): void {
     const { charts } = this.layout;
+    const added: HTMLElement[] = [];
     const wheels = this.recorder.of(this.robot)?.wheels ?? [];
     this.wheels = wheels.join();
     for (const [id, chart] of [...this.charts]) {
@@ -165,15 +166,28 @@ export class PlotsPanel implements Panel {
       const chart = this.charts.get(spec.id) ?? new Chart(spec, about, this.portOf(spec.id));
       this.charts.set(spec.id, chart);
       chart.setLines(spec, about);
-      chart.element.hidden = spec.kind === 'factor' && this.app.store.simulator === null;
-      if (!chart.element.isConnected) {
+      chart.element.hidden = this.isEmpty(spec);
+      if (chart.element.parentElement === null) {
         this.place.append(chart.element);
+        added.push(chart.element);
       }
+    }
+    if (added.length === 1) { // not all of a layout
+      added[0]?.scrollIntoView({ block: 'nearest' }); // it may be below the fold
+      added[0]?.classList.add('added');
     }
     const fields = charts.flatMap((spec) => spec.fields);
     this.following.follow(fields);
     document.body.classList.toggle('plotted', fields.length > 0);
     this.draw(true);
+  }
+
+  /** Whether a chart of the page's own would stay without lines: of no simulator, of no wheels. */
+  private isEmpty({ kind, fields }: ChartSpec): boolean {
+    if (kind === 'wheels' && fields.length === 0) {
+      return this.recorder.of(this.robot)?.wheels.length === 0;
+    }
+    return kind === 'factor' && this.app.store.simulator === null;
   }
 
   private get robot(): string | undefined {

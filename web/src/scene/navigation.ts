@@ -48,8 +48,8 @@ export class NavigationLayer {
     this.object.add(this.grids.object, this.routes.object);
   }
 
-  setPalette({ path, pose }: Palette): void {
-    this.routes.setColour(path);
+  setPalette({ path, pose, gridMajor }: Palette): void {
+    this.routes.setColours(path, gridMajor);
     this.goalLook.color.set(path);
     this.poseLook.color.set(pose);
   }
@@ -76,8 +76,10 @@ export class NavigationLayer {
     this.routes.object.visible = paths;
   }
 
-  /** Mark these goals. */
+  /** Mark these goals; the paths to those that have ended fade. */
   setGoals(goals: readonly GoalStatus[]): void {
+    const robots = new Set(goals.map(({ robot }) => robot));
+    this.goals.filter(({ robot }) => !robots.has(robot)).forEach(({ robot }) => this.routes.fade(robot));
     this.goals = goals;
   }
 

@@ -17,16 +17,29 @@ interface Shown {
   count: number; // points
   points: Float32Array;
   ribbon: Ribbon;
+  isFaded: boolean;
 }
 
 export class Routes {
   readonly object = new Group();
   private readonly shown = new Map<string, Shown>();
   private colour = '#000';
+  private faded = '#000';
 
-  setColour(colour: string): void {
-    this.colour = colour;
-    this.shown.forEach(({ ribbon }) => ribbon.setColour(colour));
+  /** `faded`: of paths that nobody follows any more. */
+  setColours(colour: string, faded: string): void {
+    [this.colour, this.faded] = [colour, faded];
+    this.shown.forEach((each) => this.paint(each));
+  }
+
+  /** The goal of a robot has ended, in whatever way: its paths fade, until the next one comes. */
+  fade(robot: string): void {
+    for (const each of this.shown.values()) {
+      if (each.robot === robot) {
+        each.isFaded = true;
+        this.paint(each);
+      }
+    }
   }
 
   take({ topic, robot }: SensorInfo, { head, floats }: Sample<Route>): void {
@@ -36,6 +49,10 @@ export class Routes {
       this.drop(topic);
       each = this.newRoute(robot, count);
       this.shown.set(topic, each);
+    }
+    if (each.isFaded) {
+      each.isFaded = false;
+      this.paint(each);
     }
     each.frame = head.origin.frame;
     each.count = count;
@@ -73,7 +90,11 @@ export class Routes {
     ribbon.setColour(this.colour);
     ribbon.object.matrixAutoUpdate = false;
     this.object.add(ribbon.object);
-    return { robot, frame: '', count, points, ribbon };
+    return { robot, frame: '', count, points, ribbon, isFaded: false };
+  }
+
+  private paint({ ribbon, isFaded }: Shown): void {
+    ribbon.setColour(isFaded ? this.faded : this.colour);
   }
 
   private drop(topic: string): void {
