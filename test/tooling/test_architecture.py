@@ -49,9 +49,10 @@ FEW_LINES = 80
 # Launch files of others are tried one by one, as robots are.
 # launch_testing and launch_pytest (14 modules, 1.8 k lines): launch tests of robots import them;
 # of helpers, the fakes of their processes.
+# Plugins share the joints of a robot.
 BUDGETS = {
     'modules': 860,
-    'code lines': 99_134,
+    'code lines': 99_156,
     'small modules of one importer beside them': 40,
     'class names used twice': 38,
     'modules excused from a check of types': 12,

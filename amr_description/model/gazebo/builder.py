@@ -19,7 +19,14 @@ from amr_description.model.hardware_info import (
     HardwareType,
     InterfaceInfo,
 )
-from amr_description.model.robot import held_without_commands, Joint, Limit, Robot, WORLD_LINK
+from amr_description.model.robot import (
+    held_without_commands,
+    Joint,
+    JointType,
+    Limit,
+    Robot,
+    WORLD_LINK,
+)
 from amr_description.model.sensors import topic_in, WorldSensor
 from amr_description.text import quote, quote_all
 
@@ -204,6 +211,14 @@ class Builder:
             owner = '<ros2_control>' if theirs[0] in self.controlled else 'another plugin'
             plugin.note(f'it is left out: {owner} has the joints {quote_all(theirs)}')
         return not lacking and not theirs and bool(joints)
+
+    def is_of_drive(self, joint: str) -> bool:
+        """Return whether a plugin has a joint, or one that turns as that does: a wheel beside."""
+        return joint in self._commands or bool(
+            self._commands
+            and self.robot.has_joint(joint)
+            and self.robot.joint(joint).type is JointType.CONTINUOUS
+        )
 
     def is_claimed(self, joint: str) -> bool:
         """Return whether controllers of parameter files may claim a joint."""

@@ -115,7 +115,9 @@ def _transmissions(builder: Builder, plugin: PluginElement) -> None:
     """
     ROS 1's host of controllers: its joints can be commanded as ``<transmission>`` says.
 
-    Those that controllers claim, of which the interface may be another one, are left to them.
+    Those that controllers claim, of which the interface may be another one, are left to them, and
+    to other plugins what they have, and the wheels beside those that one drives, which roll: in
+    Gazebo both live side by side.
     """
     found: dict[str, list[str]] = {}
     for joint in plugin.element.getroottree().iterfind('transmission/joint'):
@@ -125,7 +127,9 @@ def _transmissions(builder: Builder, plugin: PluginElement) -> None:
             if kind.lower() in ('position', 'velocity', 'effort'):
                 interfaces.append(kind.lower())
     joints = [
-        name for name, interfaces in found.items() if interfaces and not builder.is_claimed(name)
+        name
+        for name, interfaces in found.items()
+        if interfaces and not builder.is_claimed(name) and not builder.is_of_drive(name)
     ]
     if not joints or not builder.can_drive(plugin, joints, _NONE):
         return
@@ -174,3 +178,6 @@ JOINTS: Mapping[str, Callable[[Builder, PluginElement], None]] = {
     'joint-trajectory-controller': _joint_trajectory,
 }
 """Kind of a plugin → what adds its controllers."""
+
+LAST = ('gazebo-ros-control',)
+"""Kinds that are translated after others: they have what is left."""

@@ -40,7 +40,7 @@ from amr_description.model.controller_files import claimed_names
 from amr_description.model.gazebo.builder import Builder, GazeboTranslation
 from amr_description.model.gazebo.drives import DRIVES, FIRST
 from amr_description.model.gazebo.instruments import add_instrument
-from amr_description.model.gazebo.joints import JOINTS
+from amr_description.model.gazebo.joints import JOINTS, LAST
 from amr_description.model.gazebo.physics import SCRUBBING
 from amr_description.model.gazebo.plugins import plugins_of, sensors_of
 from amr_description.model.gazebo.sensors import read_sensors, SERVED_ELSEWHERE
@@ -81,7 +81,7 @@ def translate(
 
     builder = Builder(robot, read_hardware(xml, robot, report), claimed)
     plugins = plugins_of(xml, builder.notes, builder.faults)
-    for plugin in sorted(plugins, key=lambda each: each.kind not in FIRST):
+    for plugin in sorted(plugins, key=lambda each: (each.kind in LAST, each.kind not in FIRST)):
         if plugin.kind in _TRANSLATORS:
             _TRANSLATORS[plugin.kind](builder, plugin)
         elif plugin.kind == 'wheel-slip':

@@ -176,7 +176,11 @@ class Mover:
             first = next(iter(targets.values()))
             targets = {name: (start, first[1]) for name, (start, _) in targets.items()}
         self._command([target for _, target in targets.values()])
-        return self._judge('position', targets)
+        moved = self._judge('position', targets)
+        # Back: wheels that stay steered would hold what is tried next.
+        self._command([start for start, _ in targets.values()])
+        self._sim.run(_SECONDS)
+        return moved
 
     def _by_action(self) -> MotionResult:
         """Move a gripper by its action; the result has to come, too."""

@@ -27,6 +27,10 @@ _GETS_AWAY = 0.1
 """Of what is asked; what makes less of it does not get away."""
 
 
+_DRIVEN = ('forward', 'turn', 'sideways')
+"""Motions of a whole robot; all others are of joints."""
+
+
 class TrialVerdict(StrEnum):
     """What a robot did."""
 
@@ -95,6 +99,8 @@ def cause_of(motion: MotionResult) -> str:
         return 'not measured'
     if abs(truth + asked) <= TOLERANCE * asked:
         return 'the other way: wheels are swapped, or an axis is upside down'
+    if motion.what not in _DRIVEN:
+        return 'its joints do not follow: by gains that do not fit them, or motors too weak'
     if odometry is None:
         return 'no odometry to compare with'
     if abs(odometry - asked) > TOLERANCE * asked:

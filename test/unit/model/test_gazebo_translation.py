@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Gazebo's plugins as hardware and controllers: names, defaults, topics, and what is left out."""
 
-from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plugin
+from fixtures.sim.plugin_robot import cart, classic_drive, gz_drive, JOINTS, plugin, wheel
 import pytest
 
 from amr_description.controllers import CONTROLLERS
@@ -600,6 +600,21 @@ def test_joints_that_a_tag_commands_stay_with_it(claiming, text):
     robot = parse(text, 'cart.urdf')
     expected = translate(robot).robot.plugin_hardware
     assert translate(robot, claiming).robot.plugin_hardware == expected
+
+
+def test_transmissions_of_ros_1_leave_a_drive_its_wheels():
+    """Whichever stands first, as in Gazebo; a wheel beside those is left to roll."""
+    kind = '<hardwareInterface>EffortJointInterface</hardwareInterface>'
+    transmissions = ''.join(
+        f'<transmission name="{side}"><joint name="{side}_joint">{kind}</joint></transmission>'
+        for side in ('left', 'third')
+    )
+    text = cart(plugin('libgazebo_ros_control.so', 'gazebo_ros_control'), classic_drive())
+    third = wheel('third', 0.0)
+    found = translate(parse(text.replace('</robot>', f'{third}{transmissions}</robot>')))
+    assert [each.name for each in found.controllers][:1] == ['drive'] and not found.notes
+    driven = dict.fromkeys(('left_joint', 'right_joint'), ['velocity'])
+    assert commands_of(found) == driven | {'third_joint': []}
 
 
 def test_transmissions_of_ros_1_leave_what_is_claimed(claiming):

@@ -5,14 +5,15 @@
 from dataclasses import replace
 import json
 import math
+from types import SimpleNamespace
 
 from controller_manager_msgs.msg import ControllerState
 import pytest
 
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.model.robot import Joint, JointType, Limit
-from amr_description.simulation.readings import Motion
-from amr_description.testing.trial.bring_up import in_the_way_of, logged
+from amr_description.simulation.readings import Joint as State, Motion
+from amr_description.testing.trial.bring_up import Active, in_the_way_of, logged
 from amr_description.testing.trial.driving import travel
 from amr_description.testing.trial.findings import (
     Check,
@@ -24,7 +25,7 @@ from amr_description.testing.trial.findings import (
     TrialFindings,
 )
 from amr_description.testing.trial.inputs import declared_drives
-from amr_description.testing.trial.moving import offset_of
+from amr_description.testing.trial.moving import Mover, offset_of
 from amr_description.testing.trial.one_robot import check_of
 from amr_description.testing.trial.posture import has_tipped, tilt_between, tipped, unrest
 from amr_description.testing.trial.verdict import (
@@ -164,6 +165,22 @@ def test_a_check_that_fails_is_not_one_that_finds_errors(code, out, err, expecte
 def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
     motion = MotionResult('a', 'forward', 1.0, truth, odometry, is_fine=False)
     assert cause_of(motion).startswith(expected)
+
+
+def test_of_joints_the_cause_is_not_sought_in_odometry():
+    motion = MotionResult('a', 'trajectory', 1.0, 6.37, None, is_fine=False)
+    assert cause_of(motion).startswith('its joints do not follow')
+
+
+def test_wheels_that_were_steered_are_straight_again_for_what_is_tried_next(monkeypatch):
+    steered, passed = State(0.1, 0.0, 0.0), []
+    sim = SimpleNamespace(run=passed.append)
+    controller = Active('steering', 'x/ForwardCommandController', '/', ('front/position',), False)
+    mover = Mover(sim, controller, {}, SimpleNamespace(read=lambda: {'front': steered}))
+    sent = []
+    monkeypatch.setattr(mover, '_command', sent.append)
+    mover.move()
+    assert sent == [[pytest.approx(0.4)], [0.1]] and len(passed) == 2
 
 
 SWAPPED = 'WARN: c.yaml:9: drive: left and right wheels are swapped: turns are inverted'
