@@ -29,6 +29,8 @@ from amr_description.ros.service_calls import ask_until_answered, call_with, wai
 from amr_description.ros_arguments import other_arguments, ros_arguments
 from amr_description.text import truth
 
+_PATIENCE = 60.0
+"""s, for an answer of the simulator; longer, where meshes are to be read."""
 _SERVICE_TYPE = 'simulation_interfaces/srv/SpawnEntity'
 
 
@@ -120,8 +122,17 @@ def _spawn(node: Node, service: str, request: SpawnEntity.Request) -> Result:
     probe = f'{service.rpartition("/")[0]}/get_entity_state'
     if probe in dict(node.get_service_names_and_types()):
         harmless = node.create_client(GetEntityState, probe)
-        ask_until_answered(node, harmless, GetEntityState.Request(), timeout=60.0)
-    return call_with(node, client, request, timeout=60.0).result
+        ask_until_answered(node, harmless, GetEntityState.Request(), timeout=_PATIENCE)
+    return call_with(node, client, request, timeout=_patience(request.resource_string)).result
+
+
+def _patience(text: str) -> float:
+    """Return how long to wait for the answer to a spawn, s."""
+    if '<mesh' not in text:
+        return _PATIENCE
+    from amr_description.simulation.spawn_cost import patience_with  # 0.1 s
+
+    return patience_with(text, _PATIENCE)
 
 
 def _description(node: Node, options: argparse.Namespace) -> str:

@@ -15,7 +15,6 @@ The simulated world, without ROS; the only package that imports MuJoCo.
 ``friction.py``         sliding friction of geoms without one, of links and of wheels
 
 ``spawning.py``         checks of a request to spawn; the codes of simulation_interfaces
-``spawn_cost.py``       how long a robot keeps the simulation waiting
 ``robot_spec.py``       URDF to MuJoCo spec: bodies, wheels, initial joint states
 ``prepared_xml.py``     the URDF as MuJoCo's reader needs it
 ``meshes.py``           the mesh files of a URDF

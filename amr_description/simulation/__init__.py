@@ -20,6 +20,7 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 
 ``api.py``                 what a simulation and its robots can do, wherever they run
 ``given.py``               what one is given: a description, its arguments, parameter files
+``spawn_cost.py``          how long a robot keeps it waiting when it is spawned
 ``readings.py``            what is read of a robot: motion, joints, scans, pictures, clouds
 ``parameters.py``          the parameters of a simulation, which are those of the simulator's node
 ``published.py``           what it publishes beside its controllers, and the recording of all

@@ -31,7 +31,6 @@ from amr_description.parameter_files import file_names
 from amr_description.plugin_errors import describe
 from amr_description.sim.engine import physics_stepping, steps_in
 from amr_description.sim.robot_view import RobotView
-from amr_description.sim.spawn_cost import announce, cost_of
 from amr_description.sim.spawning import (
     check_name,
     checked_namespace,
@@ -43,6 +42,7 @@ from amr_description.sim.world import MujocoWorld
 from amr_description.simulation.manager_arguments import manager_arguments, rollers_of
 from amr_description.simulation.parameters import CLOCK_PERIOD, SimulationParameters
 from amr_description.simulation.plugin_controllers import log_translation
+from amr_description.simulation.spawn_cost import announce, cost_of
 from amr_description.text import plain_name
 
 _Result = TypeVar('_Result')

@@ -110,12 +110,13 @@ class LockStep:
         self.timestep = nanoseconds(self.state(entity).header.stamp) - before
         self.reset()
 
-    def ask(self, service_type: Any, **fields: Any) -> Any:
+    def ask(self, service_type: Any, *, timeout: float = TIMEOUT, **fields: Any) -> Any:
         """
         Call a service of the simulator and return the response.
 
         Args:
             service_type: Type of the service; its name follows from that.
+            timeout: s of the wall clock, for the answer.
             **fields: Of the request.
 
         Raises:
@@ -124,7 +125,7 @@ class LockStep:
         if self.node.count_publishers(self._acknowledgements) > 1:
             raise SimulationError(f'a second simulator {self._name} {self._intruder()}')
         name = name_of_type(service_type)
-        response = self._call(service_type, name, service_type.Request(**fields))
+        response = self._call(service_type, name, service_type.Request(**fields), timeout)
         result = response.result
         if result.result != Result.RESULT_OK:
             raise SimulationError(f'{name}: {result.error_message}')
@@ -302,11 +303,11 @@ class LockStep:
             return  # of another publisher: a later one of ours is not to count as acknowledged
         self._acknowledged[message.key] = max(number, self._acknowledged.get(message.key, 0))
 
-    def _call(self, service_type: Any, name: str, request: Any) -> Any:
+    def _call(self, service_type: Any, name: str, request: Any, timeout: float = TIMEOUT) -> Any:
         client = self._client(service_type, name)
         self.wait(ServiceReadiness(self.node, client), f"the simulator's service {name}")
         future = client.call_async(request)
-        self.wait(future.done, f'the answer of {name}')
+        self.wait(future.done, f'the answer of {name}', timeout)
         return future.result()
 
     def _client(self, service_type: Any, name: str = '') -> Client:

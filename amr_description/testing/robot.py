@@ -24,6 +24,7 @@ from amr_description.ros.log_thread import LoggerLog
 from amr_description.ros.messages import fill_pose
 from amr_description.simulation.api import namespace_of, RobotApi
 from amr_description.simulation.readings import Joint, Motion
+from amr_description.simulation.spawn_cost import patience_with
 from amr_description.simulation.spawned_controllers import (
     BROADCASTER,
     spawn_declared,
@@ -140,6 +141,7 @@ def spawn(
     fill_pose(pose, request.initial_pose.pose)
     response = lock_step.ask(
         SpawnEntity,
+        timeout=patience_with(description, TIMEOUT),
         name=name,
         entity_namespace=namespace,
         resource_string=description,

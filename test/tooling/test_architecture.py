@@ -50,9 +50,10 @@ FEW_LINES = 80
 # launch_testing and launch_pytest (14 modules, 1.8 k lines): launch tests of robots import them;
 # of helpers, the fakes of their processes.
 # Plugins share the joints of a robot.
+# Who waits for a spawn waits as long as its meshes take.
 BUDGETS = {
     'modules': 860,
-    'code lines': 99_156,
+    'code lines': 99_174,
     'small modules of one importer beside them': 40,
     'class names used twice': 38,
     'modules excused from a check of types': 12,

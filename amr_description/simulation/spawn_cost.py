@@ -8,12 +8,14 @@ MuJoCo compiles its model between two cycles, in which time stands still. Measur
 a chain of 100 links, 10 s for one of 1,000.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from amr_description.ament_index import resolve_uri
-from amr_description.errors import ResourceError, SpawnError
+from amr_description.errors import DescriptionError, ResourceError, SpawnError
 from amr_description.log import Log, Severity
-from amr_description.model.robot import Mesh, Robot
+from amr_description.model.robot import Collision, Mesh, Robot, Visual
+from amr_description.model.urdf import parse
 from amr_description.sim.spawning import SpawnCode
 
 _S_PER_TRIANGLE = 1.45e-5
@@ -23,6 +25,8 @@ _BYTES_PER_TRIANGLE = 50
 _WORTH_A_LINE = 0.5
 _MOST = 60.0
 """s"""
+_BUSY = 30.0
+"""How many times as long it may take on a busy machine."""
 
 
 @dataclass(frozen=True)
@@ -44,12 +48,29 @@ class SpawnCost:
 
 def cost_of(robot: Robot) -> SpawnCost:
     """Look at a robot and at the sizes of its mesh files."""
-    files = {
-        collision.geometry.filename
-        for link in robot.links
-        for collision in link.collisions
-        if isinstance(collision.geometry, Mesh)
-    }
+    return _cost(robot, (part for link in robot.links for part in link.collisions))
+
+
+def patience_with(text: str, least: float) -> float:
+    """
+    Return how long to wait for the answer to a spawn, s.
+
+    Args:
+        text: The URDF; meshes that are only seen count as well, as they are read, too.
+        least: s, for a robot that takes no time.
+    """
+    try:
+        robot = parse(text)
+    except DescriptionError:  # the simulator says why
+        return least
+    parts: list[Collision | Visual] = []
+    for link in robot.links:
+        parts += [*link.collisions, *link.visuals]
+    return least + _BUSY * min(_MOST, _cost(robot, parts).seconds)
+
+
+def _cost(robot: Robot, parts: Iterable[Collision | Visual]) -> SpawnCost:
+    files = {each.geometry.filename for each in parts if isinstance(each.geometry, Mesh)}
     return SpawnCost(len(robot.links), sum(map(_size_of, files)) // _BYTES_PER_TRIANGLE)
 
 

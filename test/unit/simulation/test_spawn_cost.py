@@ -8,8 +8,8 @@ from support.control_fakes import FakeLog
 from amr_description.errors import SpawnError
 from amr_description.log import Severity
 from amr_description.model.urdf import parse
-from amr_description.sim.spawn_cost import announce, cost_of, SpawnCost
 from amr_description.sim.spawning import check_name
+from amr_description.simulation.spawn_cost import announce, cost_of, patience_with, SpawnCost
 
 
 def chain(count):
@@ -69,6 +69,20 @@ def test_a_mesh_that_is_not_there_costs_nothing():
         '</geometry></collision></link></robot>'
     )
     assert cost_of(robot) == SpawnCost(1, 0)
+
+
+@pytest.mark.parametrize('kind', ['collision', 'visual'])
+def test_who_waits_for_a_spawn_waits_as_long_as_its_meshes_take_on_a_busy_machine(tmp_path, kind):
+    robot = meshed(tmp_path, 84 + 50 * 100_000)
+    text = robot.text.replace('collision', kind)
+    assert patience_with(text, 30.0) == pytest.approx(30.0 + 30.0 * 1.45, abs=0.1)
+    assert patience_with('<robot name="r"><link name="a"/></robot>', 30.0) < 30.01
+    assert patience_with('no robot', 60.0) == 60.0
+
+
+def test_of_what_is_refused_no_more_is_expected(tmp_path):
+    text = meshed(tmp_path, 50 * 50_000_000).text
+    assert patience_with(text, 60.0) == 60.0 + 30.0 * 60.0
 
 
 @pytest.mark.parametrize('name', ['x' * 201, 'x' * 100_000])
