@@ -18,6 +18,7 @@ import subprocess
 import sys
 
 from amr_description.workspace.cmake_errors import Missing, missing, package_of
+from amr_description.workspace.python_half import forgetting, has_python_half, PythonHalf
 
 # Commands that make something of what was found.
 _USE = re.compile(
@@ -36,9 +37,7 @@ _VERSION = 'set(PACKAGE_VERSION_COMPATIBLE TRUE)\n'
 
 def compiles_nothing(source: Path) -> bool:
     """Return whether a package only installs files, as far as its rules tell."""
-    return not any(
-        _USE.search(file.read_text(encoding='utf-8', errors='replace')) for file in _rules(source)
-    )
+    return not _USE.search(_text_of_rules(source))
 
 
 def _rules(source: Path) -> Iterator[Path]:
@@ -155,6 +154,7 @@ def _configure(command: list[str], source: str, compilers: list[str]) -> int:
     folder, can_do_without = Path(source), compiles_nothing(Path(source))
     more = [*compilers, *(write_expected_stubs(folder, _stubs()) if can_do_without else ())]
     notes = ''
+    command[1:1] = forgetting(_stubs())
     while True:
         code, said = _run([*command, *more])
         lacks = missing(said, source) if code else None
@@ -164,12 +164,47 @@ def _configure(command: list[str], source: str, compilers: list[str]) -> int:
         sys.stdout.write(said)
         more.append(way_out)
         notes += note
+    if lacks and has_python_half(_text_of_rules(folder)):
+        code, said, note = _configure_python_half([*command, *more], lacks, said)
+        notes += note
     if code and compilers and _NO_FEATURES in said:
         said = _NO_COMPILER
     _report(code, said, said, source)
     if not code:
         sys.stderr.write(notes)
     return code
+
+
+def _configure_python_half(command: list[str], lacks: Missing, said: str) -> tuple[int, str, str]:
+    """
+    Configure a package without its C++ half.
+
+    Args:
+        command: that failed.
+        lacks: what the C++ half lacks.
+        said: what CMake wrote about that.
+
+    Returns:
+        The exit code, what CMake wrote to stderr, and what to say of what is left out.
+    """
+    half, words = PythonHalf(_stubs()), said
+    while True:
+        sys.stdout.write(words)
+        half.begin()
+        code, words = _run([*command, *half.arguments])
+        other = missing(words, str(lacks.source)) if code else None
+        if not (other and other.is_command and half.without(other.name)):
+            break
+    sys.stdout.write(words)
+    if code:
+        return code, said, ''  # what the whole package lacks tells more
+    package, names = package_of(lacks.source), ', '.join(half.left_out)
+    note = f'{package}: only its Python half is built, without {names or "what is compiled"}: '
+    return code, '', f'{note}it {lacks.wish}\n'
+
+
+def _text_of_rules(source: Path) -> str:
+    return '\n'.join(file.read_text(encoding='utf-8', errors='replace') for file in _rules(source))
 
 
 def _run(command: list[str]) -> tuple[int, str]:

@@ -47,15 +47,22 @@ class Missing:
 
     def __str__(self) -> str:
         """Say which package lacks what, where it asks for it, and what would do."""
-        where = f', {self.place[0]}:{self.place[1]}' if self.place else ''
+        package = package_of(self.source)
         if self.is_command:
             return (
-                f'{package_of(self.source)} calls {self.name}(){where}, which is no command here: '
+                f'{package} {self.wish}, which is no command here: '
                 'find_package() of the package that has it is missing, or that package'
             )
+        return f'{package} {self.wish}, {_advice(self.name)}'
+
+    @property
+    def wish(self) -> str:
+        """What is asked for, and where: ``needs 'OpenCV' (find_package, CMakeLists.txt:12)``."""
+        where = f', {self.place[0]}:{self.place[1]}' if self.place else ''
+        if self.is_command:
+            return f'calls {self.name}(){where}'
         wanted = f'{self.name!r} {self.version}' if self.version else repr(self.name)
-        package = package_of(self.source)
-        return f'{package} needs {wanted} (find_package{where}), {_advice(self.name)}'
+        return f'needs {wanted} (find_package{where})'
 
 
 def missing(said: str, source: str) -> Missing | None:

@@ -51,14 +51,15 @@ FEW_LINES = 80
 # of helpers, the fakes of their processes.
 # Plugins share the joints of a robot.
 # Who waits for a spawn waits as long as its meshes take.
+# Python halves of C++ packages are built.
 BUDGETS = {
-    'modules': 860,
-    'code lines': 99_174,
+    'modules': 861,
+    'code lines': 99_295,
     'small modules of one importer beside them': 40,
     'class names used twice': 38,
     'modules excused from a check of types': 12,
     'modules with many public names': 29,
-    'code lines of helpers in test files': 26_804,
+    'code lines of helpers in test files': 26_861,
 }
 
 BASE = {
