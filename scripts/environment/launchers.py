@@ -30,6 +30,8 @@ message_filters, sensor_msgs_py, nav2_simple_commander, cv_bridge and others. No
 import them get those of this package, under the names of the originals' modules. ``launch`` and
 ``launch_ros`` are there for programs that are no launch files: tests, by launch_testing.
 
+**Hints.** A program that ends as it does not find a module of ROS says what would do.
+
 **Packages in the index.** What ``ros2 run`` and launch files of ours start in place of packages
 that are not installed, genuine ones find too: an entry of the ament index, ``package.xml`` and
 ``lib/<package>/<executable>``. A workspace's own package of that name comes first.
@@ -86,6 +88,8 @@ MODULES = {
     'colcon_amr_description': 'workspace.colcon',
     'cv_bridge': 'ros_packages.cv_bridge',
     'diagnostic_updater': 'ros_packages.diagnostic_updater',
+    'image_geometry': 'ros_packages.image_geometry',
+    'image_geometry.cameramodels': 'ros_packages.image_geometry',
     'laser_geometry': 'ros_packages.laser_geometry',
     'launch_pytest': 'launch_testing.pytest_plugin',
     'launch_pytest.actions': 'launch_testing.actions',
@@ -114,6 +118,22 @@ MODULES = {
     ),
     'nav2_simple_commander.line_iterator': 'nav2_simple_commander.line_iterator',
     'nav2_simple_commander.robot_navigator': 'nav2_simple_commander.robot_navigator',
+    'ros2action': None,
+    'ros2action.api': 'ros_packages.ros2_api',
+    'ros2cli': None,
+    'ros2cli.node': 'ros_packages.ros2_api',
+    'ros2cli.node.direct': 'ros_packages.ros2_api',
+    'ros2cli.node.strategy': 'ros_packages.ros2_api',
+    'ros2node': None,
+    'ros2node.api': 'ros_packages.ros2_api',
+    'ros2param': None,
+    'ros2param.api': 'ros_packages.ros2_api',
+    'ros2pkg': None,
+    'ros2pkg.api': 'ros_packages.ros2_api',
+    'ros2service': None,
+    'ros2service.api': 'ros_packages.ros2_api',
+    'ros2topic': None,
+    'ros2topic.api': 'ros_packages.ros2_api',
     'rosbag2_py': 'ros_packages.rosbag2_py',
     'rosbag2_py._storage': 'ros_packages.rosbag2_py',
     'rosidl_runtime_py': 'ros_packages.rosidl_runtime_py',
@@ -137,6 +157,8 @@ MODULES = {
     'tf2_sensor_msgs': 'tf2_ros.clouds',
     'tf2_sensor_msgs.tf2_sensor_msgs': 'tf2_ros.clouds',
     'tf_transformations': 'ros_packages.tf_transformations',
+    'urdf_parser_py': None,
+    'urdf_parser_py.urdf': 'ros_packages.urdf_parser_py',
 }
 MODULE = """\
 # Written by scripts/setup: the module of this name is that of amr_description here.
@@ -179,6 +201,34 @@ ament_copyright = ament_copyright.pytest_marker
 launch_pytest = _amr_launch_pytest
 launch_testing = _amr_launch_testing
 """,
+    '_amr_hints.py': """\
+# Written by scripts/setup: where a program ends as it does not find a module of ROS, what would do
+# is said below the traceback. Who catches the error sees it as it is.
+import sys
+
+
+def _install():
+    before = sys.excepthook
+
+    def hook(kind, error, traceback):
+        name = getattr(error, 'name', None)
+        if isinstance(error, ModuleNotFoundError) and name:
+            try:
+                from amr_description.stand_ins import hint_of_module
+
+                hint = hint_of_module(name)
+            except Exception:
+                hint = ''
+            if hint:
+                error.add_note(f"amr_description: no module '{name}': {hint}")
+        before(kind, error, traceback)
+
+    sys.excepthook = hook
+
+
+_install()
+""",
+    '_amr_hints.pth': 'import _amr_hints\n',
     '_amr_launch_testing.py': """\
 # Written by scripts/setup: the plugin of launch_testing, loaded at the first file that needs it.
 # Where a workspace has the genuine one, pytest takes that in place of this.
