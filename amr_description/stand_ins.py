@@ -139,3 +139,71 @@ INSTEAD_OF_PACKAGES = {
     ),
 }
 """By package: what to do where it is not installed."""
+
+_FROM_SOURCE = 'its sources can be cloned into a workspace and built there with colcon'
+_PIP = 'pip install {}'
+_NO_LINTER = (
+    'this linter is not here: leave its test out, as by "colcon test --pytest-args -k \'not '
+    'linter\'", or run it on a machine with ROS 2 Jazzy'
+)
+_ROS_1 = 'it is of ROS 1; in ROS 2 it is {}'
+_ELSEWHERE = (
+    'it is C++, or made by C++, and not here: it runs on a machine with ROS 2 Jazzy beside this '
+    'one (docs/two_machines.md)'
+)
+INSTEAD_OF_MODULES = {
+    'PyKDL': _ELSEWHERE,
+    **dict.fromkeys(
+        (
+            'ament_black',
+            'ament_clang_format',
+            'ament_cpplint',
+            'ament_lint_cmake',
+            'ament_mypy',
+            'ament_pycodestyle',
+            'ament_uncrustify',
+            'ament_xmllint',
+        ),
+        _NO_LINTER,
+    ),
+    'cv2': _PIP.format('opencv-python-headless'),
+    'kdl_parser_py': _ELSEWHERE,
+    'moveit': _ELSEWHERE,
+    'moveit_configs_utils': _FROM_SOURCE,
+    'moveit_py': _ELSEWHERE,
+    'open3d': _PIP.format('open3d'),
+    'py_trees': _PIP.format('py_trees'),
+    'py_trees_ros': _FROM_SOURCE,
+    'pyqtgraph': _PIP.format('pyqtgraph'),
+    'python_qt_binding': _GRAPH,
+    'qt_gui': _GRAPH,
+    'ros2_numpy': _FROM_SOURCE,
+    'rosbridge_library': _FROM_SOURCE,
+    'rosbridge_server': _FROM_SOURCE,
+    'rospkg': _ROS_1.format('ament_index_python'),
+    'rospy': _ROS_1.format('rclpy'),
+    'rqt_gui': _GRAPH,
+    'rqt_gui_py': _GRAPH,
+    'rviz_common': _PAGE,
+    'tf': _ROS_1.format('tf2_ros, and tf_transformations for angles'),
+    'tf2_kdl': _ELSEWHERE,
+    'transforms3d': _PIP.format('transforms3d'),
+}
+"""By module of Python: what to do where it cannot be imported."""
+_COMMANDS_OF_ROS = (
+    'ros2bag', 'ros2component', 'ros2doctor', 'ros2interface', 'ros2launch', 'ros2lifecycle',
+    'ros2run',
+)  # fmt: skip
+
+
+def hint_of_module(name: str) -> str:
+    """Return what to do about a module of ROS that is not found; '': nothing is known of it."""
+    root = name.partition('.')[0]
+    if root.endswith(('_msgs', '_srvs', '_interfaces', '_actions')):
+        return (
+            'it has messages: its sources can be cloned into a workspace, where "colcon build" '
+            'generates them (docs/your_own_messages.md)'
+        )
+    if root in _COMMANDS_OF_ROS:
+        return 'the command ros2 is here, but has no such module'
+    return INSTEAD_OF_MODULES.get(root) or INSTEAD_OF_PACKAGES.get(root, '')

@@ -52,16 +52,16 @@ FEW_LINES = 80
 # Plugins share the joints of a robot.
 # Who waits for a spawn waits as long as its meshes take.
 # Python halves of C++ packages are built.
-# of helpers, the fakes of their processes. urdf_parser_py, image_geometry and what ros2node.api and
-# its like ask of a graph have the many names of the originals.
+# urdf_parser_py, image_geometry and what ros2node.api and its like ask of a graph have the many
+# names of the originals; those of URDF's tags (15) are the model's, too.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_019,
+    'code lines': 100_082,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 31,
-    'code lines of helpers in test files': 26_958,
+    'code lines of helpers in test files': 26_976,
 }
 
 BASE = {
