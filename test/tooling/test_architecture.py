@@ -54,14 +54,15 @@ FEW_LINES = 80
 # Python halves of C++ packages are built.
 # urdf_parser_py, image_geometry and what ros2node.api and its like ask of a graph have the many
 # names of the originals; those of URDF's tags (15) are the model's, too.
+# Early mecanum drives list their joints.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_082,
+    'code lines': 100_107,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 31,
-    'code lines of helpers in test files': 26_976,
+    'code lines of helpers in test files': 26_984,
 }
 
 BASE = {

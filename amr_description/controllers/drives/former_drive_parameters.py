@@ -108,11 +108,29 @@ def _halves(name: str, other: str) -> FormerParameter:
     return FormerParameter(name, read)
 
 
+def _four(kind: str) -> FormerParameter:
+    """Return the list of the four wheels' joints that mecanum drives had before their release."""
+
+    def read(value: Any, given: Mapping[str, Any]) -> FormerValue | None:
+        names = [f'{corner}_wheel_{kind}_joint_name' for corner in _CORNERS]
+        is_list = isinstance(value, list) and len(value) == len(names)
+        if not is_list or any(name in given for name in names):
+            return None
+        return FormerValue(
+            f'{OF_BEFORE}an early mecanum drive controller: taken as the joints front left, '
+            'rear left, rear right, front right',
+            dict(zip(names, value, strict=True)),
+        )
+
+    return FormerParameter(f'{kind}_joint_names', read)
+
+
 def _known(name: str) -> FormerParameter:
     """Return one that another says what is made of it."""
     return FormerParameter(name, lambda value, given: None)
 
 
+_CORNERS = ('front_left', 'rear_left', 'rear_right', 'front_right')
 _FORKS = 'another mecanum drive controller'
 _FORKS_TIMEOUT = 0.5
 """s: what they have for cmd_vel_timeout."""
@@ -149,6 +167,8 @@ MECANUM = (
             ('{}_{}_joint_name', 'rear', 'rear'),
         )
     ),
+    _four('command'),
+    _four('state'),
     _renamed('wheel_radius', 'kinematics.wheels_radius'),
     _halves('wheel_separation_x', 'wheel_separation_y'),
     _halves('wheel_base', 'wheel_separation'),

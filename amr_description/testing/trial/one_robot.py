@@ -49,6 +49,8 @@ from amr_description.testing.trial.posture import Posture
 from amr_description.testing.trial.verdict import cause_of, describe, explanations
 from amr_description.text import one_line, quote_all
 
+_PLANAR = 'GazeboPlanarMove'
+
 
 @dataclass(frozen=True)
 class Job:
@@ -223,6 +225,10 @@ class Trial:
                     self.found.motions.append(Mover(sim, controller, joints, states).move())
             except LookupError as error:
                 self.found.undriven.append(f'{controller.name}: {error}')
+        elif mover := mover_of_body(active):
+            self.found.undriven.append(
+                f'{controller.name} turns wheels only: the body is moved by {mover}'
+            )
         elif controller.claimed:  # others only publish
             try:
                 wheelbase = wheelbase_of(robot, controller.name)
@@ -266,6 +272,18 @@ def _in_turn(bring_up: BringUp) -> Iterator[list[Active]]:
         yield [*(other for other in active if other != each), each]
     for each in bring_up.turns():
         yield [*(other for other in bring_up.active() if other.name != each.name), each]
+
+
+def mover_of_body(active: Sequence[Active]) -> str:
+    """
+    Return the plugin that moves the body beside the last of some controllers; '': none does.
+
+    It holds the body where it moves it not, as in Gazebo, so that wheels alone move nothing.
+    """
+    *others, last = active
+    if not last.claimed or last.type.endswith(_PLANAR):
+        return ''
+    return next((each.name for each in others if each.type.endswith(_PLANAR)), '')
 
 
 def wheelbase_of(robot: Robot, controller: str) -> float:

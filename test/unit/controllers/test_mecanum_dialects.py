@@ -39,6 +39,13 @@ TUTORIALS = f"""    front_left_joint_name: front_left_joint
     wheel_separation: {2 * HALF_TRACK}
     wheel_radius: {RADIUS}
 """
+EARLY = f"""    command_joint_names:
+      [front_left_joint, rear_left_joint, rear_right_joint, front_right_joint]
+    state_joint_names: [front_left_joint, rear_left_joint, rear_right_joint, front_right_joint]
+    kinematics.wheels_radius: {RADIUS}
+    kinematics.sum_of_robot_center_projection_on_X_Y_axis: {HALF_BASE + HALF_TRACK}
+    reference_timeout: 0.5
+"""
 
 
 @pytest.mark.parametrize(
@@ -47,8 +54,9 @@ TUTORIALS = f"""    front_left_joint_name: front_left_joint
         ('clearpath_mecanum_drive_controller', OFFICIAL),
         ('mecanum_drive_controller', HUSARIONS),
         ('mecanum_drive_controller', TUTORIALS),
+        ('mecanum_drive_controller', EARLY),
     ],
-    ids=['clearpath', 'husarion', 'tutorial'],
+    ids=['clearpath', 'husarion', 'tutorial', 'early'],
 )
 def test_the_mecanum_drives_of_others_move_as_told(tmp_path, package, parameters):
     file = tmp_path / 'drive.yaml'
@@ -64,5 +72,7 @@ def test_the_mecanum_drives_of_others_move_as_told(tmp_path, package, parameters
             else:
                 assert sim.truth.yaw == pytest.approx(1.0, rel=0.03)
         assert sim.log.count('is not here, and is taken as') == package.count('clearpath')
-        if 'kinematics' not in parameters:
+        if parameters is EARLY:
+            assert 'is of an early mecanum drive controller: taken as' in sim.log
+        elif parameters is not OFFICIAL:
             assert 'is of another mecanum drive controller: taken as' in sim.log

@@ -26,7 +26,7 @@ from amr_description.testing.trial.findings import (
 )
 from amr_description.testing.trial.inputs import declared_drives
 from amr_description.testing.trial.moving import Mover, offset_of
-from amr_description.testing.trial.one_robot import check_of
+from amr_description.testing.trial.one_robot import check_of, mover_of_body
 from amr_description.testing.trial.posture import has_tipped, tilt_between, tipped, unrest
 from amr_description.testing.trial.verdict import (
     cause_of,
@@ -170,6 +170,15 @@ def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
 def test_of_joints_the_cause_is_not_sought_in_odometry():
     motion = MotionResult('a', 'trajectory', 1.0, 6.37, None, is_fine=False)
     assert cause_of(motion).startswith('its joints do not follow')
+
+
+def test_beside_a_plugin_that_moves_the_body_wheels_only_turn():
+    planar = Active('planar', 'amr_description/GazeboPlanarMove', '/', ('base/x',), False)
+    wheels = Active('wheels', 'x/MecanumDriveController', '/', ('front/velocity',), False)
+    states = Active('states', 'x/JointStateBroadcaster', '/', (), False)
+    assert mover_of_body([planar, wheels]) == 'planar'
+    assert not mover_of_body([wheels, planar]) and not mover_of_body([planar, states])
+    assert not mover_of_body([states, wheels])
 
 
 def test_wheels_that_were_steered_are_straight_again_for_what_is_tried_next(monkeypatch):
