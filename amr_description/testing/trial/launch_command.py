@@ -30,7 +30,7 @@ _PREFIX_PATH = 'AMENT_PREFIX_PATH'
 _WIDTH = 16
 
 
-def launch_files(paths: Iterable[Path]) -> dict[str, Path]:
+def launch_files(paths: Sequence[Path]) -> dict[str, Path]:
     """
     Return the launch files of folders, and those that are named, by their names in the table.
 
@@ -41,11 +41,10 @@ def launch_files(paths: Iterable[Path]) -> dict[str, Path]:
     for path in paths:
         if not path.exists():
             raise UsageError(f"'{path}': there is no such file or folder")
-        if path.is_file():
-            found[path.name] = path
-            continue
-        below = sorted(launch_files_below(path))
-        found |= {str(each.relative_to(path)): each for each in below}
+        # Several packages have files of the same names.
+        root = path if path.is_dir() and len(paths) == 1 else path.parent
+        below = sorted(launch_files_below(path)) if path.is_dir() else [path]
+        found |= {str(each.relative_to(root)): each for each in below}
     if not found:
         raise UsageError(f'there is no launch file below {", ".join(map(str, paths))}')
     return found

@@ -127,6 +127,10 @@ def test_files_are_named_below_their_folder_and_alone(folder):
     assert 'toy_robot/launch/up.launch.py' in launch_files([folder])
     file = folder / 'toy_robot/launch/up.launch.py'
     assert launch_files([file]) == {'up.launch.py': file}
+    (other := folder / 'other/launch').mkdir(parents=True)
+    (other / 'up.launch.py').write_text(file.read_text())
+    names = launch_files([folder / 'toy_robot', folder / 'other'])
+    assert {'toy_robot/launch/up.launch.py', 'other/launch/up.launch.py'} <= {*names}
 
 
 def test_source_packages_are_found_without_a_build(folder, tmp_path):
