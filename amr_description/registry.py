@@ -16,6 +16,7 @@ from typing import Any
 
 from amr_description.errors import AmrError
 from amr_description.ownership import changed_by_others
+from amr_description.plugin_errors import place_of
 from amr_description.text import did_you_mean
 
 _MOST_NAMES = 12
@@ -106,6 +107,8 @@ class Registry:
         error: type[AmrError],
         *,
         absent: Mapping[str, str] | None = None,
+        base: str = '',
+        needs: Mapping[str, str] | None = None,
     ) -> None:
         """
         Take the names.
@@ -115,11 +118,15 @@ class Registry:
             table: from a name to ``module:attribute``.
             error: what is raised for a name that is not known.
             absent: names that are known elsewhere, and what would do in their place.
+            base: ``module:Class``, of which a class of a third party is derived; '': of any.
+            needs: what such a class has to have, and what it is.
         """
         self._kind = kind
         self._table = dict(table)
         self._error = error
         self._absent = absent or {}
+        self._base = base
+        self._needs = needs or {}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -140,17 +147,37 @@ class Registry:
                 'that nobody else can change will do, or a package'
             )
         try:
-            return resolve(target)
+            found = resolve(target)
         except (Exception, SystemExit) as cause:  # a third-party module may raise anything
             if name in self._table:
                 raise
             raise self._error(self.absence(name, cause)) from cause
+        if name not in self._table and (fault := self._fault_of(found)):
+            raise self._error(f"{self._kind} '{name}' {fault}")
+        return found
+
+    def _fault_of(self, found: Any) -> str:
+        """Return what is wrong with a class of a third party; '': nothing."""
+        if self._base:
+            base = resolve(self._base)
+            if not (isinstance(found, type) and issubclass(found, base)):
+                what = self._base.replace(':', '.')
+                return f'is no {base.__name__}: derive it from {what}'
+        lacking = (name for name in self._needs if not hasattr(found, name))
+        if (name := next(lacking, None)) is not None:
+            return f'has no {name}, {self._needs[name]}'
+        return ''
 
     def absence(self, name: str, cause: BaseException | None = None) -> str:
         """Return, in one line, that a name is not there, and what would do."""
         if name in self._absent:
             return f"{self._kind} '{name}' is not there: {self._absent[name]}"
-        reason = f' ({type(cause).__name__}: {cause})' if cause is not None else ''
+        reason = ''
+        if cause is not None:
+            place = place_of(cause)
+            if Path(__file__).name in place:  # it is not there at all
+                place = ''
+            reason = f' ({type(cause).__name__}: {cause}{place})'
         known = f'. Known: {", ".join(self.names)}' if len(self.names) <= _MOST_NAMES else ''
         return (
             f"{self._kind} '{name}' is not known, and cannot be imported as "

@@ -141,4 +141,6 @@ CONTROLLERS = Registry(
     },
     ControllerError,
     absent=ABSENT,
+    base='amr_description.control.contracts:Controller',
+    needs={'parameters_type': 'the dataclass of its parameters'},
 )

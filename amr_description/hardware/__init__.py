@@ -50,5 +50,6 @@ HARDWARE = Registry(
         'amr_description/SimulatedBase': _SIMULATED_BASE,
     },
     HardwareError,
+    base='amr_description.control.contracts:HardwareComponent',
 )
 """Plugin name → class."""

@@ -9,7 +9,8 @@ import pytest
 import amr_description
 from amr_description import controllers
 from amr_description.controllers import CONTROLLERS
-from amr_description.errors import ControllerError
+from amr_description.errors import AmrError, ControllerError
+from amr_description.hardware import HARDWARE
 from amr_description.registry import Registry, resolve
 
 TABLE = {'a/Path': 'pathlib:Path', 'a/Gone': 'pathlib:Gone'}
@@ -41,6 +42,37 @@ def test_an_unknown_name_is_reported_with_the_known_ones(name, tmp_path, monkeyp
         Registry('thing', TABLE, ControllerError).find(name)
 
 
+def test_a_module_that_cannot_be_imported_is_named_with_its_line(tmp_path, monkeypatch):
+    (tmp_path / 'hers.py').write_text('import math\nfrom math import nothing\n')
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(
+        ControllerError, match=r"ImportError: cannot import name 'nothing'.*hers.py:2\)"
+    ):
+        Registry('thing', TABLE, ControllerError).find('hers/Thing')
+
+
+@pytest.mark.parametrize(
+    ('name', 'said'),
+    [
+        ('numpy/ndarray', "thing 'numpy/ndarray' is no PurePath: derive it from pathlib.PurePath"),
+        ('numpy/array', "'numpy/array' is no PurePath"),
+        ('pathlib_of_hers/Path', "'pathlib_of_hers/Path' has no size, in bytes$"),
+    ],
+)
+def test_a_class_of_another_kind_is_refused(name, said, tmp_path, monkeypatch):
+    (tmp_path / 'pathlib_of_hers.py').write_text(
+        'from pathlib import Path\nclass Good(Path): size = 1\n'
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    registry = Registry(
+        'thing', TABLE, ControllerError, base='pathlib:PurePath', needs={'size': 'in bytes'}
+    )
+    with pytest.raises(ControllerError, match=said):
+        registry.find(name)
+    assert registry.find('pathlib_of_hers/Good').size == 1
+    assert registry.find('a/Path').__name__ == 'Path', 'those of the table are not asked'
+
+
 def test_a_fault_of_the_table_itself_is_not_the_users():
     with pytest.raises(AttributeError, match='Gone'):
         Registry('thing', TABLE, ControllerError).find('a/Gone')
@@ -52,6 +84,14 @@ def test_the_shipped_controllers_are_found_by_the_names_of_ros2_controllers():
     assert found.__qualname__ == 'DiffDriveController'
     for name in CONTROLLERS.names:
         assert CONTROLLERS.find(name).parameters_type
+
+
+@pytest.mark.parametrize(
+    ('registry', 'what'), [(CONTROLLERS, 'Controller'), (HARDWARE, 'Hardware')]
+)
+def test_what_is_no_plugin_is_refused_before_it_stops_a_robot(registry, what):
+    with pytest.raises(AmrError, match=f"'numpy/ndarray' is no {what}"):
+        registry.find('numpy/ndarray')
 
 
 @pytest.mark.parametrize('package', [amr_description, controllers])
