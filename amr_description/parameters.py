@@ -51,6 +51,8 @@ TYPE_NAMES: dict[Any, str] = {
 _ELEMENT_TYPES = {'string_array': str, 'double_array': float, 'bool_array': bool}
 _KEY = 'amr_description.parameter'
 _NO_VALUES: Mapping[str, Any] = {}
+_WITH_A_COMMA = re.compile(r'[-+]?(0,\d+|\d+,(\d{1,2}|\d{4,}))')
+"""A decimal comma; that of 1,000 may be between thousands."""
 _NUMBER = re.compile(r'[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?')
 
 
@@ -174,7 +176,7 @@ class Spec:
         complaint = self.bounds.complaint(value)
         if complaint:
             unit = f' {self.unit}' if self.unit else ''
-            shown = list(value) if isinstance(value, tuple) else value
+            shown = list(value) if isinstance(value, tuple) else value if value != '' else "''"
             raise ParameterError(f"parameter '{self.name}' {complaint}, found {shown}{unit}")
         return value
 
@@ -202,6 +204,8 @@ def _rewritten(value: Any, kind: str) -> str:
             return f'; write {value}.0'
         case 'double', str() if _NUMBER.fullmatch(value):
             return f'; write {float(value)!r}, without quotes'
+        case 'double', str() if _WITH_A_COMMA.fullmatch(value):
+            return f'; write {float(value.replace(",", ".", 1))!r}, with a point'
         case 'integer', float() if value.is_integer():
             return f'; write {int(value)}'
         case 'integer', str() if value.isdecimal():
