@@ -57,12 +57,12 @@ FEW_LINES = 80
 # Early mecanum drives list their joints.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_134,
+    'code lines': 100_132,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 31,
-    'code lines of helpers in test files': 26_998,
+    'code lines of helpers in test files': 27_013,
 }
 
 BASE = {

@@ -78,8 +78,8 @@ _LISTS = (
 )
 
 
-def _deprecated_size(instead: str) -> Any:
-    return parameter(0.0, f"Deprecated: use '{instead}'", **_SIZE)
+def _deprecated_size(instead: str, *, read_only: bool = False) -> Any:
+    return parameter(0.0, f"Deprecated: use '{instead}'", read_only=read_only, **_SIZE)
 
 
 @dataclass(frozen=True)
@@ -193,8 +193,8 @@ class BicycleSteeringParameters(SteeringParameters):
     """The table of bicycle_steering_controller/BicycleSteeringController."""
 
     traction_wheel_radius: float = parameter(0.0, 'Radius of the driven wheel', **_SIZE)
-    front_wheel_radius: float = _deprecated_size('traction_wheel_radius')
-    rear_wheel_radius: float = _deprecated_size('traction_wheel_radius')
+    front_wheel_radius: float = _deprecated_size('traction_wheel_radius', read_only=True)
+    rear_wheel_radius: float = _deprecated_size('traction_wheel_radius', read_only=True)
 
     def modernized(self, log: Log) -> Self:
         """Return the parameters with deprecated ones in their place, and warn of each."""

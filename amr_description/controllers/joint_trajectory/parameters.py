@@ -30,33 +30,31 @@ class JointGains:
     d: float = parameter(0.0, 'Derivative gain')
     ff_velocity_scale: float = parameter(0.0, 'Factor of the desired velocity, added to the PID')
     i_clamp: float = parameter(
-        0.0, 'Integral clamp, in both directions, of the strategy legacy', minimum=0.0, **_ANY
+        math.inf, 'Deprecated: integral clamp in both directions', minimum=0.0, **_ANY
     )
-    i_clamp_max: float = parameter(0.0, 'Upper integral clamp; 0: none, or i_clamp', **_ANY)
-    i_clamp_min: float = parameter(0.0, 'Lower integral clamp; 0: none, or -i_clamp', **_ANY)
+    i_clamp_max: float = parameter(math.inf, 'Upper integral clamp; infinite: i_clamp', **_ANY)
+    i_clamp_min: float = parameter(-math.inf, 'Lower integral clamp; infinite: -i_clamp', **_ANY)
     u_clamp_max: float = parameter(math.inf, 'Upper output clamp', **_ANY)
     u_clamp_min: float = parameter(-math.inf, 'Lower output clamp', **_ANY)
     antiwindup: bool = parameter(False, 'Clamp the integral itself; of the strategy legacy')
     antiwindup_strategy: str = parameter(
-        'legacy', 'Anti-windup strategy of the integral', choices=STRATEGIES
+        'legacy', 'Anti-windup strategy of the integral', choices=STRATEGIES, read_only=True
     )
     tracking_time_constant: float = parameter(
         0.0, 'Time constant of back_calculation; 0: from the gains', unit='s'
     )
-    error_deadband: float = parameter(1e-16, 'Errors up to this size are not integrated')
+    error_deadband: float = parameter(0.0, 'Errors up to this size are not integrated')
 
     def pid(self) -> PidGains:
         """Return the gains for :class:`~amr_description.controllers.pid.Pid`."""
-        is_legacy = self.antiwindup_strategy == 'legacy'
-        clamp = self.i_clamp if is_legacy or self.i_clamp > 0.0 else math.inf
         return PidGains(
             p=self.p,
             i=self.i,
             d=self.d,
             u_max=self.u_clamp_max,
             u_min=self.u_clamp_min,
-            i_max=self.i_clamp_max or clamp,
-            i_min=self.i_clamp_min or -clamp,
+            i_max=self.i_clamp_max if math.isfinite(self.i_clamp_max) else self.i_clamp,
+            i_min=self.i_clamp_min if math.isfinite(self.i_clamp_min) else -self.i_clamp,
             strategy=self.antiwindup_strategy,
             antiwindup=self.antiwindup,
             tracking_time_constant=self.tracking_time_constant,

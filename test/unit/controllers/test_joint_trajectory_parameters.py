@@ -90,10 +90,10 @@ def test_parameters_out_of_bounds_are_refused(parameters, text):
 @pytest.mark.parametrize(
     ('gains', 'limits'),
     [
-        ({}, (0.0, 0.0)),
+        ({}, (-math.inf, math.inf)),
         ({'i_clamp': 2.0}, (-2.0, 2.0)),
         ({'i_clamp': 2.0, 'i_clamp_max': 1.0}, (-2.0, 1.0)),
-        ({'antiwindup_strategy': 'none'}, (-math.inf, math.inf)),
+        ({'i_clamp_max': 0.0}, (-math.inf, 0.0)),
         ({'antiwindup_strategy': 'none', 'i_clamp_min': -3.0}, (-3.0, math.inf)),
     ],
 )
