@@ -55,14 +55,15 @@ FEW_LINES = 80
 # urdf_parser_py, image_geometry and what ros2node.api and its like ask of a graph have the many
 # names of the originals; those of URDF's tags (15) are the model's, too.
 # Early mecanum drives list their joints.
+# What stands on legs is moved less far.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_132,
+    'code lines': 100_150,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 31,
-    'code lines of helpers in test files': 27_013,
+    'code lines of helpers in test files': 27_024,
 }
 
 BASE = {

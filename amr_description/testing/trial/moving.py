@@ -104,7 +104,10 @@ class Mover:
         controller: Active,
         joints: Mapping[str, Joint],
         states: JointStates,
+        share: float = 1.0,
     ) -> None:
+        """``share``: of how far joints are moved else."""
+        self._share = share
         self._sim = sim
         self._controller = controller
         self._joints = joints
@@ -156,7 +159,7 @@ class Mover:
         states = self._states.read()
         starts = {name: states[name].position for name in self._names}
         return {
-            name: (start, start + offset_of(self._joints.get(name), start))
+            name: (start, start + self._share * offset_of(self._joints.get(name), start))
             for name, start in starts.items()
         }
 

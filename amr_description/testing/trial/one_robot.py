@@ -23,7 +23,7 @@ import warnings
 
 from amr_description.errors import AmrError
 from amr_description.model.gazebo.translation import translate
-from amr_description.model.robot import Robot
+from amr_description.model.robot import held_without_commands, Joint, JointType, Robot
 from amr_description.model.urdf import parse
 from amr_description.simulation.given import GivenDescription
 from amr_description.testing.simulation import Simulation
@@ -50,6 +50,10 @@ from amr_description.testing.trial.verdict import cause_of, describe, explanatio
 from amr_description.text import one_line, quote_all
 
 _PLANAR = 'GazeboPlanarMove'
+_OF_LEGS = 0.2
+"""As a share of how far others are moved: two legs that bend as far as an arm fall."""
+_LEG = 3
+"""So many joints or more has a leg."""
 
 
 @dataclass(frozen=True)
@@ -222,12 +226,14 @@ class Trial:
             joints = {each.name: each for each in robot.joints}
             try:
                 with closing(JointStates(sim, active)) as states:
-                    self.found.motions.append(Mover(sim, controller, joints, states).move())
+                    share = _OF_LEGS if stands_on_legs(robot) else 1.0
+                    mover = Mover(sim, controller, joints, states, share)
+                    self.found.motions.append(mover.move())
             except LookupError as error:
                 self.found.undriven.append(f'{controller.name}: {error}')
-        elif mover := mover_of_body(active):
+        elif plugin := mover_of_body(active):
             self.found.undriven.append(
-                f'{controller.name} turns wheels only: the body is moved by {mover}'
+                f'{controller.name} turns wheels only: the body is moved by {plugin}'
             )
         elif controller.claimed:  # others only publish
             try:
@@ -284,6 +290,23 @@ def mover_of_body(active: Sequence[Active]) -> str:
     if not last.claimed or last.type.endswith(_PLANAR):
         return ''
     return next((each.name for each in others if each.type.endswith(_PLANAR)), '')
+
+
+def stands_on_legs(robot: Robot) -> bool:
+    """Return whether it has two limbs or more, of joints that hold it up."""
+    held = held_without_commands(robot)
+
+    def count(joint: Joint) -> int:
+        return (joint.name in held) + sum(map(count, robot.child_joints(joint.child)))
+
+    stack, limbs = [robot.root.name], 0
+    while stack:
+        for joint in robot.child_joints(stack.pop()):
+            if joint.type is JointType.FIXED:
+                stack.append(joint.child)
+            else:
+                limbs += count(joint) >= _LEG
+    return limbs > 1
 
 
 def wheelbase_of(robot: Robot, controller: str) -> float:

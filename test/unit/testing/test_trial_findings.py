@@ -12,6 +12,7 @@ import pytest
 
 from amr_description.model.frames import quaternion_from_yaw, Transform
 from amr_description.model.robot import Joint, JointType, Limit
+from amr_description.model.urdf import parse
 from amr_description.simulation.readings import Joint as State, Motion
 from amr_description.testing.trial.bring_up import Active, in_the_way_of, logged
 from amr_description.testing.trial.driving import travel
@@ -26,7 +27,7 @@ from amr_description.testing.trial.findings import (
 )
 from amr_description.testing.trial.inputs import declared_drives
 from amr_description.testing.trial.moving import Mover, offset_of
-from amr_description.testing.trial.one_robot import check_of, mover_of_body
+from amr_description.testing.trial.one_robot import check_of, mover_of_body, stands_on_legs
 from amr_description.testing.trial.posture import has_tipped, tilt_between, tipped, unrest
 from amr_description.testing.trial.verdict import (
     cause_of,
@@ -170,6 +171,27 @@ def test_truth_and_odometry_tell_a_cause(truth, odometry, expected):
 def test_of_joints_the_cause_is_not_sought_in_odometry():
     motion = MotionResult('a', 'trajectory', 1.0, 6.37, None, is_fine=False)
     assert cause_of(motion).startswith('its joints do not follow')
+
+
+def limbs(count, kind='revolute', root='base'):
+    """A robot of some limbs of three joints each."""
+    parts = [f'<robot name="r"><link name="{root}"/>']
+    for limb in range(count):
+        for number in range(3):
+            parent = f'l{limb}{number - 1}' if number else root
+            parts.append(
+                f'<link name="l{limb}{number}"/><joint name="j{limb}{number}" type="{kind}">'
+                f'<parent link="{parent}"/><child link="l{limb}{number}"/><axis xyz="0 1 0"/>'
+                '<limit lower="-1" upper="1" effort="9" velocity="9"/></joint>'
+            )
+    return parse(''.join([*parts, '</robot>']))
+
+
+def test_who_stands_on_legs_is_moved_less_far():
+    assert stands_on_legs(limbs(2)) and stands_on_legs(limbs(4))
+    assert not stands_on_legs(limbs(1))  # an arm
+    assert not stands_on_legs(limbs(4, kind='continuous'))  # wheels
+    assert not stands_on_legs(limbs(2, root='world'))
 
 
 def test_beside_a_plugin_that_moves_the_body_wheels_only_turn():
