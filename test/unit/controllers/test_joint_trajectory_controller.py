@@ -71,6 +71,19 @@ def test_a_goal_is_followed_and_reached():
     assert arm.run(0.5)[-1] == pytest.approx([1.0, -2.0])
 
 
+def test_what_pushes_a_joint_away_after_its_goal_is_no_fault():
+    arm = Arm(constraints__b__goal=0.1, constraints__goal_time=0.2).activate()
+    arm.run()
+    goal = arm.send((1.0, -2.0), times=[0.5])
+    arm.run(0.6)
+    assert outcome(goal)[0] == GoalStatus.SUCCEEDED
+    arm.is_following = False
+    arm.place(1.0, -1.0)
+    logged = len(arm.log.texts())
+    assert arm.run(0.5)[-1] == pytest.approx([1.0, -2.0])
+    assert arm.log.texts()[logged:] == []
+
+
 def test_the_topic_is_followed_and_a_wrong_one_refused_by_its_check():
     arm = Arm().activate()
     topic = arm.controller.inputs()[0]
@@ -209,6 +222,10 @@ def test_a_goal_that_takes_too_long_is_aborted():
         'Aborted due to goal_time_tolerance exceeding by 0.510000 seconds; a: position error '
         '1.000000, tolerance 0.010000',
     )
+    logged = len(arm.log.texts())
+    arm.place(0.5, 0.0)  # it holds; what pushes it is no fault of anything
+    arm.run(0.6)
+    assert arm.log.texts()[logged:] == []
 
 
 def test_the_tolerances_of_a_goal_hold_for_it_alone():

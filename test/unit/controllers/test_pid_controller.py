@@ -131,6 +131,9 @@ def test_angles_take_the_short_way_round():
     bench.refer([-3.0, 1.0])
     assert bench.update()[0] == pytest.approx(2.0 * (2.0 * math.pi - 6.0))
     assert bench.sent['~/controller_state'][-1].states[0].error == pytest.approx(0.2831853)
+    bench.states[0].value = math.pi  # half a turn: either way is as short, and one is taken
+    bench.refer([0.0, 1.0])
+    assert bench.update()[0] == pytest.approx(2.0 * math.pi)
 
 
 def test_what_is_measured_by_a_topic_counts_once_it_has_come():

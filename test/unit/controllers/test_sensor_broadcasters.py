@@ -95,6 +95,7 @@ def test_a_pose_is_also_the_transform_of_its_child_frame():
     sample = bench.sent['/tf'][0]
     assert (sample.frame_id, sample.child_frame_id) == ('world', 'tool')
     assert (sample.position, sample.orientation) == ((1.0, 2.0, 3.0), (0.0, 0.0, 0.6, 0.8))
+    assert bench.log.texts(Severity.WARN) == []
     assert list(Bench(POSE, **POSES, tf__enable=False).sent) == ['~/pose']
     named = Bench(POSE, **POSES, tf__child_frame_id='hand', tf__publish_rate=20.0)
     named.read(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)

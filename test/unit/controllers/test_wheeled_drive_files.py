@@ -70,6 +70,18 @@ def test_a_drive_that_fits_its_robot_has_no_findings(texts, name):
             'front_left_wheel_command_joint_name: rear_left_joint',
             'joint "rear_left_joint" is not at the corner of front_left_wheel: found (-0.15, ',
         ),
+        (
+            'mecanum',
+            'rear_left_wheel_command_joint_name: rear_left_joint',
+            'rear_left_wheel_command_joint_name: rear_right_joint',
+            'expected x < 0, y > 0: x ahead, y to the left',
+        ),
+        (
+            'mecanum',
+            'front_right_wheel_command_joint_name: front_right_joint',
+            'front_right_wheel_command_joint_name: front_left_joint',
+            'expected x > 0, y < 0: x ahead, y to the left',
+        ),
         ('omni', 'wheel_radius: 0.05', 'wheel_radius: 0.06', 'wheel_radius is not that'),
         ('omni', 'robot_radius: 0.2', 'robot_radius: 0.3', 'expected 0.2 m, as far as the wheels'),
         (
