@@ -47,17 +47,17 @@ def find_launch_file(
 def launchable_names(package: str) -> list[str]:
     """Return what may be launched of a package: names of stacks and files. Raises AmrError."""
     share = package_prefix(package) / 'share' / package
-    files = {path.name for path in launch_files_below(share)}
+    files = {path.name for path in launch_files_below(share, with_stacks=True)}
     return [*(STACKS if package == _OURS else ()), *sorted(files)]
 
 
-def launch_files_below(folder: Path) -> set[Path]:
-    """Return the launch files and stacks below a folder."""
+def launch_files_below(folder: Path, *, with_stacks: bool = False) -> set[Path]:
+    """Return the launch files of ROS below a folder, and the stacks, if these are asked for."""
     markup = ('*.launch', *(f'*.launch{ending}' for ending in MARKUP))
     files = {path for pattern in markup for path in folder.rglob(pattern)}
     for path in folder.rglob('*.py'):
         with suppress(AmrError):
-            if {path.stem, _FUNCTION} & _functions(path):
+            if {_FUNCTION, *((path.stem,) if with_stacks else ())} & _functions(path):
                 files.add(path)
     return files
 

@@ -48,7 +48,7 @@ def folder(tmp_path):
     launch.mkdir(parents=True)
     (launch.parent / 'package.xml').write_text('<package><name>toy_robot</name></package>')
     (launch.parent / 'toy.urdf').write_text(TOY)
-    (launch.parent / 'setup.py').write_text('')
+    (launch.parent / 'stretched.py').write_text('def stretched(): ...')
     files = {
         'dies': "ExecuteProcess(cmd=['sh', '-c', 'echo ValueError: no such port; exit 3'])",
         'drives': DRIVES,
