@@ -102,6 +102,7 @@ INSTEAD_OF_PACKAGES = {
     'joy_linux': _GAMEPAD,
     'joy_teleop': _GAMEPAD,
     'nav2_bringup': _NAVIGATION,
+    'cartographer_ros': _NAVIGATION,
     'navigation2': _NAVIGATION,
     **dict.fromkeys(
         (
@@ -113,6 +114,7 @@ INSTEAD_OF_PACKAGES = {
             'nav2_costmap_2d',
             'nav2_lifecycle_manager',
             'nav2_planner',
+            'nav2_recoveries',
             'nav2_route',
             'nav2_smoother',
             'nav2_velocity_smoother',

@@ -22,7 +22,7 @@ from amr_description.launch_api import opened_files
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.counterparts import prefix_of, share_of
 from amr_description.launch_api.locations import at, Located, refusal
-from amr_description.text import suggestion
+from amr_description.text import did_you_mean, suggestion
 
 SomeSubstitutions: TypeAlias = Any
 """A text, a substitution, or a list of them, as in launch."""
@@ -262,7 +262,7 @@ class Command(Substitution):
         except (OSError, ValueError) as error:
             raise self.failure(f"the command '{text}' cannot be run: {error}") from None
         said = (result.stderr or '').strip().splitlines()
-        last = f': {said[-1]}' if said else ''
+        last = _without_a_file(text) or (f': {said[-1]}' if said else '')
         if result.returncode:
             raise self.failure(f'executed command failed. Command: {text}{last}')
         if said and on_stderr in ('fail', 'warn'):
@@ -282,6 +282,23 @@ class Command(Substitution):
         for word in words[1:]:
             opened_files.note(word)
         return words
+
+
+def _without_a_file(command: str) -> str:
+    """
+    Return that a description is not there which a command of xacro names; '': it is none.
+
+    xacro ends with an AttributeError of Python then, as ``xml.parsers`` is not imported.
+    """
+    program, *words = shlex.split(command)
+    if os.path.basename(program) != 'xacro':
+        return ''
+    paths = (Path(word) for word in words if word.endswith(('.xacro', '.urdf')))
+    path = next((each for each in paths if not each.exists()), None)
+    if path is None:
+        return ''
+    near = [each.name for each in path.parent.glob('*')]
+    return f": there is no file '{path}'{did_you_mean(path.name, near)}"
 
 
 class FileContent(Substitution):

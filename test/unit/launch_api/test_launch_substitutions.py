@@ -115,6 +115,18 @@ def test_a_substitution_without_a_text_is_told_with_its_place(context, made, sai
     assert '\n' not in str(told.value)
 
 
+def test_a_description_that_is_not_there_is_named(context, tmp_path):
+    (tmp_path / 'robot.urdf.xacro').write_text('<robot name="a"><odd/></robot>')
+    (tmp_path / 'broken.xacro').write_text('<robot')
+    with pytest.raises(
+        BringupError, match=r"no file '.*/robto.urdf.xacro'; did you mean robot.ur"
+    ):
+        subs.Command(f'xacro {tmp_path}/robto.urdf.xacro a:=b.urdf').perform(context)
+    with pytest.raises(BringupError, match='executed command failed') as told:
+        subs.Command(f'xacro {tmp_path}/broken.xacro').perform(context)
+    assert 'there is no file' not in str(told.value)
+
+
 def test_stderr_of_a_command_may_be_allowed(context):
     odd = 'sh -c "echo odd >&2; echo even"'
     assert subs.Command(odd, on_stderr='ignore').perform(context) == 'even\n'
