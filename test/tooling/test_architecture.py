@@ -58,12 +58,12 @@ FEW_LINES = 80
 # What stands on legs is moved less far.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_162,
+    'code lines': 100_175,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 31,
-    'code lines of helpers in test files': 27_024,
+    'code lines of helpers in test files': 27_036,
 }
 
 BASE = {

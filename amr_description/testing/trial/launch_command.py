@@ -9,6 +9,8 @@ from dataclasses import asdict
 import json
 import os
 from pathlib import Path
+import re
+import shutil
 import signal
 import sys
 import tempfile
@@ -28,6 +30,7 @@ from amr_description.testing.trial.launch_trial import (
 _GOOD = (LaunchVerdict.DRIVES, LaunchVerdict.COMES_UP, LaunchVerdict.NOTHING)
 _PREFIX_PATH = 'AMENT_PREFIX_PATH'
 _WIDTH = 16
+_PROGRAMS = re.compile(r'^\s*install\s*\(\s*PROGRAMS\s+(.*?)\sDESTINATION\b', re.M | re.S)
 
 
 def launch_files(paths: Sequence[Path]) -> dict[str, Path]:
@@ -66,6 +69,19 @@ def index_of_sources(paths: Iterable[Path], prefix: Path) -> None:
         marker.parent.mkdir(parents=True, exist_ok=True)
         marker.touch()
         (prefix / 'share' / name).symlink_to(package.resolve())
+        for program in _programs(package):
+            copy = prefix / 'lib' / name / program.name
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(program, copy)
+            copy.chmod(0o755)  # as install(PROGRAMS …) does, whatever it was
+
+
+def _programs(package: Path) -> list[Path]:
+    """Return the scripts that the rules of CMake of a package install; what is built is none."""
+    rules = package / 'CMakeLists.txt'
+    text = rules.read_text(encoding='utf-8', errors='replace') if rules.is_file() else ''
+    words = [word for found in _PROGRAMS.findall(text) for word in found.split()]
+    return [path for word in words if (path := package / word).is_file()]
 
 
 def _packages(path: Path) -> list[Path]:

@@ -3,6 +3,7 @@
 """``try_launch_files``: what drives, comes up, dies or is refused is a row with its reason."""
 
 import json
+import os
 import sys
 
 import pytest
@@ -138,6 +139,21 @@ def test_source_packages_are_found_without_a_build(folder, tmp_path):
     index_of_sources([folder / 'toy_robot/launch/up.launch.py', folder], prefix)
     assert (prefix / 'share/toy_robot/toy.urdf').read_text() == TOY
     assert [path.name for path in prefix.rglob('packages/*')] == ['toy_robot']
+
+
+def test_scripts_that_cmake_would_install_are_found_as_well(tmp_path):
+    (package := tmp_path / 'mine').mkdir()
+    (package / 'package.xml').write_text('<package><name>mine</name></package>')
+    (package / 'run.py').write_text('#!/usr/bin/env python3')
+    (package / 'CMakeLists.txt').write_text(
+        'install(PROGRAMS\n  run.py\n  gone.py\n  DESTINATION lib/${PROJECT_NAME})\n'
+        '# install(PROGRAMS package.xml DESTINATION lib/mine)\n'
+    )
+    (prefix := tmp_path / 'prefix').mkdir()
+    index_of_sources([package], prefix)
+    (program,) = (prefix / 'lib/mine').iterdir()
+    assert program.name == 'run.py'
+    assert os.access(program, os.X_OK)
 
 
 def test_what_is_left_out_stands_below_its_row():
