@@ -58,7 +58,7 @@ FEW_LINES = 80
 # What stands on legs is moved less far.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_175,
+    'code lines': 100_177,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,

@@ -38,8 +38,11 @@ _RADIUS = 4.0
 """m, of the arc of a robot that cannot turn on the spot."""
 _PERIOD = 0.1
 """s between two commands."""
-_NOWHERE_NEAR = 0.7
-"""Of the speed that is asked; wheels that slip may make less of it, too, but not that much."""
+_NOWHERE_NEAR = 0.95
+"""
+Of the speed that is asked: what reaches less is asked for less than it reaches. One with a limit
+of its own then moves as told, one whose wheels slip or are of another size does not, as before.
+"""
 _SLOWEST = 1e-3
 """m/s or rad/s; what is slower does not move."""
 _LONGEST_START, _LONGEST_STRETCH, _LONGEST_STOP = 10.0, 60.0, 10.0

@@ -161,7 +161,7 @@ class Trial:
             with sim:
                 self.found.spawn_seconds = time.monotonic() - begin
                 self._enter('rest')
-                posture = self._rest(sim)
+                posture = self._rest(sim, parse(text))
                 self._enter('controllers')
                 manager = find_manager(sim, is_promised=declared.is_controlled)
                 if manager is None:
@@ -180,8 +180,9 @@ class Trial:
         except AttributeError:  # it was never started
             return
 
-    def _rest(self, sim: Simulation) -> Posture:
-        posture = Posture(sim)
+    def _rest(self, sim: Simulation, robot: Robot) -> Posture:
+        rolls = any(joint.type is JointType.CONTINUOUS for joint in robot.joints)
+        posture = Posture(sim, rolls=rolls)
         self.found.rest, faults = posture.rest()
         self.found.posture += [f'at rest {each}' for each in faults]
         return posture

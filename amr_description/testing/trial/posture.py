@@ -42,9 +42,9 @@ def tilt_between(before: Motion, now: Motion) -> float:
 class Posture:
     """Looks at one robot, against how it was spawned."""
 
-    def __init__(self, sim: Simulation) -> None:
-        """Take how it is now."""
-        self._sim = sim
+    def __init__(self, sim: Simulation, *, rolls: bool = False) -> None:
+        """Take how it is now; ``rolls``: whether it has wheels."""
+        self._sim, self._rolls = sim, rolls
         self._begin = sim.truth
 
     def rest(self) -> tuple[RestResult, list[str]]:
@@ -96,7 +96,7 @@ class Posture:
             why = f': {lines[0]}' if lines else ''
             return [f'it falls, by {fallen:.1f} m{why}']
         tilt = tilt_between(self._begin, now)
-        return [tipped(tilt)] if has_tipped(tilt) else []
+        return [tipped(tilt, rolls=self._rolls)] if has_tipped(tilt) else []
 
 
 def has_tipped(tilt: float) -> bool:
@@ -104,9 +104,10 @@ def has_tipped(tilt: float) -> bool:
     return tilt > _TIPPED
 
 
-def tipped(tilt: float) -> str:
-    """Return that a robot has tipped over, by an angle, rad."""
-    return f'it has tipped over, by {math.degrees(tilt):.0f}°, {BOLTED_DOWN}'
+def tipped(tilt: float, *, rolls: bool = False) -> str:
+    """Return that a robot has tipped over, by an angle, rad; of one that rolls nothing else."""
+    why = '' if rolls else f', {BOLTED_DOWN}'
+    return f'it has tipped over, by {math.degrees(tilt):.0f}°{why}'
 
 
 def unrest(linear: float, angular: float) -> str:
