@@ -39,6 +39,7 @@ export class Header {
       icon: 'reset',
       title: 'Reset: robots to their starts, time to 0',
     });
+    reset.classList.add('reset');
     this.transport = h(
       'div',
       { class: 'transport', role: 'group', 'aria-label': 'Simulation' },

@@ -7,6 +7,7 @@ accessible as axe-core can tell, and it looks as it did when somebody last looke
 The robots are a script; what is drawn on canvases (scene, plots) is not looked at here.
 """
 
+from dataclasses import replace
 import gzip
 import json
 import re
@@ -212,6 +213,33 @@ def test_display_opens_on_its_sliders_whatever_was_looked_at_in_a_simulation(pag
     finally:
         backend.show(scripted_robots.simulation())
     page.wait_until(f"{SELECTED} === 'tab-health'")
+
+
+IN_HEAD = '.top h1 select, .top > .transport, .top > .recorder, .top > .clock, .top > .button'
+PLACES = f"""
+    [...document.querySelectorAll('{IN_HEAD}')].map((each) => each.getBoundingClientRect())
+    .filter(({{ width }}) => width > 0).map(({{ left, right }}) => [left, right])
+"""
+
+
+@pytest.mark.parametrize('width', [320, 390])
+def test_nothing_on_a_phone_covers_the_name_of_the_robot_of_several(page, robots, width):
+    backend, _ = robots
+    page.look_like(width, 800, phone=True)
+    scene = scripted_robots.simulation()
+    (subject, graph), *others = scene.messages
+    (robot,) = graph.robots
+    fleet = replace(graph, robots=(robot, replace(robot, id='/robot1', name='robot1')))
+    try:
+        backend.show(replace(scene, messages=((subject, fleet), *others)))
+        page.wait_until("document.querySelectorAll('.top h1 option').length === 2")
+        places = page.evaluate(PLACES)
+    finally:
+        backend.show(scene)
+    assert len(places) == 6
+    ends = [each for place in places for each in place]
+    assert ends == sorted(ends)
+    assert ends[-1] <= width
 
 
 def test_a_graph_without_a_robot_says_the_command_that_starts_one(page, robots):
