@@ -397,7 +397,7 @@ def _entry(tree: yaml.Node, key: Any) -> tuple[int, yaml.Node]:
     if isinstance(tree, yaml.SequenceNode) and len(tree.value) == 1:
         tree = tree.value[0]
     if isinstance(tree, yaml.MappingNode):
-        for name, below in tree.value:
+        for name, below in reversed(tree.value):  # of a value that stands twice the last counts
             if name.value == str(key):
                 return name.start_mark.line + 1, below
     return tree.start_mark.line + 1, tree

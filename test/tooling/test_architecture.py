@@ -63,7 +63,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 31,
-    'code lines of helpers in test files': 27_036,
+    'code lines of helpers in test files': 27_042,
 }
 
 BASE = {

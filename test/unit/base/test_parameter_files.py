@@ -170,3 +170,10 @@ def test_a_value_may_stand_in_many_places():
         f'{new}: &{new} [{", ".join([f"*{old}"] * 9)}]\n' for old, new in pairwise('abcdefghijk')
     )
     assert set(load_yaml(laughs)) == set('abcdefghijk')
+
+
+def test_of_a_value_that_stands_twice_the_line_is_that_of_the_one_that_counts():
+    text = 'a:\n  ros__parameters:\n    x: 1\n    y: 2\na:\n  ros__parameters:\n    x: 3\n'
+    tree = compose(text)
+    assert content_of(text) == {'a': {'ros__parameters': {'x': 3, 'y': 2}}}
+    assert [find_keys(tree, ('a', 'ros__parameters', key))[0] for key in 'xy'] == [7, 4]
