@@ -3,9 +3,14 @@
 """``rosidl_runtime_py``: messages as YAML, CSV and dictionaries, and back; classes by name."""
 
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+import importlib
 from pathlib import Path
 from typing import Any
+
+from ament_index_python import get_resource, get_resources, has_resource
+from ament_index_python.packages import get_package_prefix
+from rosidl_parser.definition import NamespacedType
 
 from amr_description.ament_index import package_share
 from amr_description.errors import AmrError
@@ -28,6 +33,114 @@ def get_interface(identifier: str) -> Any:
     if not kind or kind[0] not in kinds:
         raise ValueError(f"'{identifier}' is not written as package/msg/Name, srv or action")
     return kinds[kind[0]](identifier)
+
+
+_RESOURCE = 'rosidl_interfaces'
+"""What the ament index has of each package with interfaces: its files."""
+
+
+def get_interface_packages() -> dict[str, str]:
+    """Return the prefix of each package that has interfaces."""
+    found: dict[str, str] = get_resources(_RESOURCE)
+    return found
+
+
+def get_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """
+    Return the interfaces of packages, ``msg/Name``; of none: of all. It leaves out what has none.
+
+    Raises:
+        LookupError: a package is not installed.
+    """
+    found = {}
+    for package in [*package_names] or get_interface_packages():
+        get_package_prefix(package)
+        if has_resource(_RESOURCE, package):
+            content, _ = get_resource(_RESOURCE, package)
+            files = map(Path, content.splitlines())
+            found[package] = sorted(
+                {str(file.with_suffix('')) for file in files if file.suffix in _SUFFIXES}
+            )
+    return found
+
+
+_SUFFIXES = ('.msg', '.srv', '.action')
+
+
+def _interfaces_of_kind(kind: str, packages: Iterable[str]) -> dict[str, list[str]]:
+    found = {
+        package: [name for name in names if name.startswith(f'{kind}/')]
+        for package, names in get_interfaces(packages).items()
+    }
+    return {package: names for package, names in found.items() if names}
+
+
+def get_message_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """As :func:`get_interfaces`, of messages alone."""
+    return _interfaces_of_kind('msg', package_names)
+
+
+def get_service_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """As :func:`get_interfaces`, of services alone."""
+    return _interfaces_of_kind('srv', package_names)
+
+
+def get_action_interfaces(package_names: Iterable[str] = ()) -> dict[str, list[str]]:
+    """As :func:`get_interfaces`, of actions alone."""
+    return _interfaces_of_kind('action', package_names)
+
+
+def _namespaced_type(identifier: str, kind: str) -> NamespacedType:
+    parts = identifier.split('/')
+    if len(parts) == 2 and kind:
+        parts.insert(1, kind)
+    if len(parts) != 3 or not all(parts):
+        raise ValueError(f"'{identifier}' is not written as package/{kind or 'msg'}/Name")
+    return NamespacedType(parts[:2], parts[2])
+
+
+def get_namespaced_type(identifier: str) -> NamespacedType:
+    """Return the parts of a name, ``package/msg/Name``. Raises ValueError."""
+    return _namespaced_type(identifier, '')
+
+
+def get_message_namespaced_type(identifier: str) -> NamespacedType:
+    """As :func:`get_namespaced_type`, of a message, also ``package/Name``."""
+    return _namespaced_type(identifier, 'msg')
+
+
+def get_service_namespaced_type(identifier: str) -> NamespacedType:
+    """As :func:`get_namespaced_type`, of a service, also ``package/Name``."""
+    return _namespaced_type(identifier, 'srv')
+
+
+def get_action_namespaced_type(identifier: str) -> NamespacedType:
+    """As :func:`get_namespaced_type`, of an action, also ``package/Name``."""
+    return _namespaced_type(identifier, 'action')
+
+
+def import_message_from_namespaced_type(message_type: NamespacedType) -> Any:
+    """Return the class of a type; one of an action's feedback has no name of its own."""
+    module = importlib.import_module('.'.join(message_type.namespaces))
+    action, found, kind = message_type.name.rpartition('_')
+    if found and kind == 'FeedbackMessage':
+        return getattr(module, action).Impl.FeedbackMessage
+    return getattr(module, message_type.name)
+
+
+def is_message(interface: Any) -> bool:
+    """Return whether a class, or an object, is one of messages."""
+    return hasattr(interface, 'get_fields_and_field_types')
+
+
+def is_service(interface: Any) -> bool:
+    """Return whether a class is one of services."""
+    return hasattr(interface, 'Request') and hasattr(interface, 'Response')
+
+
+def is_action(interface: Any) -> bool:
+    """Return whether a class is one of actions."""
+    return all(hasattr(interface, name) for name in ('Goal', 'Result', 'Feedback'))
 
 
 def get_interface_path(interface_name: str) -> str:

@@ -138,6 +138,8 @@ MODULES = {
     'rosbag2_py._storage': 'ros_packages.rosbag2_py',
     'rosidl_runtime_py': 'ros_packages.rosidl_runtime_py',
     'rosidl_runtime_py.convert': 'ros_packages.rosidl_runtime_py',
+    'rosidl_runtime_py.get_interfaces': 'ros_packages.rosidl_runtime_py',
+    'rosidl_runtime_py.import_message': 'ros_packages.rosidl_runtime_py',
     'rosidl_runtime_py.set_message': 'ros_packages.rosidl_runtime_py',
     'rosidl_runtime_py.utilities': 'ros_packages.rosidl_runtime_py',
     'sensor_msgs_py': None,

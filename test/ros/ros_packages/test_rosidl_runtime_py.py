@@ -7,14 +7,31 @@ from collections import OrderedDict
 from geometry_msgs.msg import PoseStamped
 import pytest
 from rosidl_runtime_py import (
+    get_action_interfaces,
+    get_interface_packages,
     get_interface_path,
+    get_interfaces,
+    get_message_interfaces,
+    get_service_interfaces,
     message_to_csv,
     message_to_ordereddict,
     message_to_yaml,
     set_message_fields,
 )
 from rosidl_runtime_py.convert import get_message_slot_types
-from rosidl_runtime_py.utilities import get_action, get_interface, get_message, get_service
+from rosidl_runtime_py.import_message import import_message_from_namespaced_type
+from rosidl_runtime_py.utilities import (
+    get_action,
+    get_action_namespaced_type,
+    get_interface,
+    get_message,
+    get_message_namespaced_type,
+    get_namespaced_type,
+    get_service,
+    is_action,
+    is_message,
+    is_service,
+)
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -69,3 +86,38 @@ def test_classes_and_files_are_found_by_name():
         with pytest.raises(LookupError):
             get_interface_path(name)
     assert [*get_message_slot_types(String)] == ['data']
+
+
+def test_packages_have_interfaces_of_each_kind():
+    assert {'std_msgs', 'std_srvs', 'tf2_msgs'} <= get_interface_packages().keys()
+    assert 'rosidl_parser' not in get_interface_packages()
+    mixed = ['std_msgs', 'std_srvs', 'tf2_msgs', 'rosidl_parser']
+    assert get_interfaces(mixed).keys() == {'std_msgs', 'std_srvs', 'tf2_msgs'}
+    assert 'msg/String' in get_message_interfaces()['std_msgs']
+    assert get_message_interfaces(mixed).keys() == {'std_msgs', 'tf2_msgs'}
+    assert get_service_interfaces(mixed)['std_srvs'] == [
+        'srv/Empty',
+        'srv/SetBool',
+        'srv/Trigger',
+    ]
+    assert get_action_interfaces(mixed) == {'tf2_msgs': ['action/LookupTransform']}
+    with pytest.raises(LookupError):
+        get_interfaces(['no_such_package'])
+
+
+def test_types_have_parts_and_classes():
+    of = import_message_from_namespaced_type
+    assert of(get_message_namespaced_type('std_msgs/String')) is String
+    assert of(get_namespaced_type('std_srvs/srv/Trigger')) is Trigger
+    action = get_action_namespaced_type('tf2_msgs/LookupTransform')
+    assert [is_action(of(action)), is_service(of(action)), is_message(of(action))] == [
+        True,
+        False,
+        False,
+    ]
+    assert is_service(Trigger)
+    assert is_message(String())
+    feedback = get_namespaced_type('tf2_msgs/action/LookupTransform_FeedbackMessage')
+    assert is_message(of(feedback))
+    with pytest.raises(ValueError, match='is not written as package/msg/Name'):
+        get_namespaced_type('String')
