@@ -52,18 +52,18 @@ FEW_LINES = 80
 # Plugins share the joints of a robot.
 # Who waits for a spawn waits as long as its meshes take.
 # Python halves of C++ packages are built.
-# urdf_parser_py, image_geometry and what ros2node.api and its like ask of a graph have the many
-# names of the originals; those of URDF's tags (15) are the model's, too.
+# urdf_parser_py, image_geometry, rosidl_runtime_py and what ros2node.api asks of a graph have the
+# many names of the originals; those of URDF's tags (15) are the model's, too.
 # Early mecanum drives list their joints.
 # What stands on legs is moved less far.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_177,
+    'code lines': 100_238,
     'small modules of one importer beside them': 40,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
-    'modules with many public names': 31,
-    'code lines of helpers in test files': 27_042,
+    'modules with many public names': 32,
+    'code lines of helpers in test files': 27_054,
 }
 
 BASE = {

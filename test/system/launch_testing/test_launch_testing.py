@@ -88,3 +88,27 @@ def test_tests_of_launch_pytest_run_beside_and_after_what_is_launched(run):
     assert '1 failed, 14 passed, 1 skipped' in done.stdout, done.stdout
     assert 'the test has yielded twice' in done.stdout
     assert 'pytest.mark.launch takes fixture=' in done.stdout
+
+
+GENUINE = {
+    'launch/__init__.py': "FROM = 'the workspace'",
+    'own_hooks.py': (
+        'def pytest_addoption(parser):\n'
+        "    parser.addoption('--launch-args', help='')\n"
+        'def pytest_report_header(config):\n'
+        "    return 'the plugin of the workspace'\n"
+    ),
+    'launch_testing-3.4.0.dist-info/METADATA': 'Metadata-Version: 2.1\nName: launch-testing\n',
+    'launch_testing-3.4.0.dist-info/entry_points.txt': '[pytest11]\nlaunch_testing = own_hooks\n',
+    'test_it.py': "def test():\n    import launch\n    assert launch.FROM == 'the workspace'\n",
+}
+
+
+def test_what_a_workspace_has_is_used_before_ours(run, tmp_path, monkeypatch):
+    for name, text in GENUINE.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    monkeypatch.setenv('PYTHONPATH', str(tmp_path))
+    done = run(*PYTEST, tmp_path / 'test_it.py')
+    assert done.returncode == 0, done.stdout
+    assert 'the plugin of the workspace' in done.stdout
