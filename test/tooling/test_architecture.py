@@ -59,7 +59,7 @@ FEW_LINES = 80
 BUDGETS = {
     'modules': 864,
     'code lines': 100_238,
-    'small modules of one importer beside them': 40,
+    'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
