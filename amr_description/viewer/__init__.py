@@ -5,7 +5,8 @@ The server of the browser page, without ROS; the only package that imports webso
 
 ==================== ==============================================================================
 ``server.py``       :class:`Server`: one port for the page and its WebSocket; start reading here
-``backend.py``      :class:`Backend`: what the server needs to know about the robots
+``backend.py``      :class:`Backend`: what the server needs to know about the robots; its
+                    :class:`Handlers`: from a request of a page to its code
 ``pages.py``        the connected pages, and what each is sent
 ``sessions.py``     what becomes of their messages
 ``drive_lock.py``   which page drives which robot, and until when

@@ -16,7 +16,7 @@ finds the Python and starts :mod:`.main`, which goes through the parts in this o
 :mod:`.virtual_environment`   ``.venv`` with exactly the versions of ``requirements.lock``
 :mod:`.interface_wheel`       ``interfaces/`` as a wheel, cached for the user by content
 :mod:`.commands`              the programs that do the work, how far they are, why they failed
-:mod:`.launchers`             what ``.venv`` gets beside packages: ros2, check_urdf, prefix hooks
+:mod:`.launchers`             what ``.venv`` gets beside packages: ros2, hooks, ``import tf2_ros``
 :mod:`.workspace`             ``colcon build --symlink-install``
 ============================  =====================================================================
 
