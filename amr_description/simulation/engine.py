@@ -20,7 +20,7 @@ from amr_description.errors import SpawnError
 from amr_description.log import Log, Severity
 from amr_description.model.frames import Transform
 from amr_description.model.gazebo.bridge import bridge_of, bridged
-from amr_description.model.gazebo.builder import GazeboTranslation
+from amr_description.model.gazebo.builder import CLAIMED_JOINTS, GazeboTranslation
 from amr_description.model.gazebo.tags import ros2_control_host_of
 from amr_description.model.gazebo.translation import translate
 from amr_description.model.hardware_info import HardwareInfo
@@ -265,7 +265,7 @@ class SimulationEngine:
         translation = bridged(translate(robot, self._parameter_files, namespace), self._bridge)
         prepared: PreparedType | None = None
         rollers: Mapping[str, Rollers] = {}
-        if hardware := hardware_of(robot):
+        if hardware := self._hardware_of(robot, namespace):
             arrival = self._arrival(robot, hardware, namespace, translation)
             rollers = rollers_of(robot, translation, self.settings.controllers)
             prepared = host.prepare(arrival)
@@ -284,6 +284,12 @@ class SimulationEngine:
         log_translation(given, translation, namespace, self._log)
         running = None if prepared is None or manager is None else (prepared, manager)
         return Spawned(given, robot, namespace, pose, translation, running)
+
+    def _hardware_of(self, robot: Robot, namespace: str) -> Sequence[HardwareInfo]:
+        """Return the hardware of a robot; none where only controllers that another has want it."""
+        hardware = hardware_of(robot)
+        is_asked_for = [each.name for each in hardware] != [CLAIMED_JOINTS]
+        return hardware if is_asked_for or not self._is_taken(namespace) else ()
 
     def _arrival(
         self,
@@ -345,9 +351,12 @@ class SimulationEngine:
                 )
         self.world.remove(name)
 
+    def _is_taken(self, namespace: str) -> bool:
+        return any(namespace == each for each, _ in [*self._managers.values()])
+
     def _check_namespace(self, namespace: str) -> None:
         """Raise SpawnError: a second controller manager would have the same name."""
-        if any(namespace == each for each, _ in self._managers.values()):
+        if self._is_taken(namespace):
             raise SpawnError(
                 f"the namespace '{namespace}' has a controller manager already; give the robot "
                 'one of its own (entity_namespace; create: --ros-args -r __ns:=/other)',

@@ -342,11 +342,20 @@ def _be_worker(
         os._exit(code)
 
 
+class _Colours:
+    """In place of what reports in the terminal."""
+
+    def __init__(self, writer: Any) -> None:
+        self._tw = writer
+
+
 def _leave_streams_to_the_parent(config: pytest.Config) -> None:
     """Capture output in files of this process, and report to nobody but the parent."""
     plugins = config.pluginmanager
     if (reporter := plugins.get_plugin('terminalreporter')) is not None:
         plugins.unregister(reporter)
+        # pytest 8 asks it how to colour what an assertion says, and dies where it is not there.
+        plugins.register(_Colours(reporter._tw), 'terminalreporter')
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
     os.close(nothing)

@@ -93,7 +93,7 @@ def test_executables_are_found_in_folders_too(run):
     [
         (('nope', 'x'), "Package 'nope' not found"),
         (('../toys', 'x'), "Package '../toys' not found"),
-        (('toy', 'x'), "Package 'toy' not found; did you mean toys?\n"),
+        (('toyss', 'x'), "Package 'toyss' not found; did you mean toys?\n"),
         (('books', 'x'), 'No executable found'),
         (('toys', 'buried'), 'No executable found'),
         (('toys', 'notes.txt'), 'No executable found'),

@@ -188,7 +188,7 @@ def test_what_cannot_be_spawned_is_refused_with_its_code(sim, node):
         allow_renaming=True,
         initial_pose=aside(-2.0),
     )
-    assert renamed.entity_name == 'amr_1'
+    assert renamed.entity_name == 'amr_1', renamed.result.error_message
     assert state(node, 'nobody').result.result == Result.RESULT_NOT_FOUND
 
 
@@ -222,9 +222,13 @@ def test_hardware_of_real_robots_and_mocks_is_simulated(sim, node, plugin, words
     [
         ({'entity_namespace': 'my robot'}, SpawnCode.NAMESPACE_INVALID, "'my robot'"),
         (
-            {'resource_string': URDF.replace('amr_description/MujocoSystem', 'numpy/ndarray')},
+            {
+                'resource_string': URDF.replace(
+                    'amr_description/MujocoSystem', 'numpy.ma/MaskedArray'
+                )
+            },
             SpawnCode.OPERATION_FAILED,
-            'TypeError: ',
+            "hardware plugin 'numpy.ma/MaskedArray' is no HardwareComponent: derive it from ",
         ),
     ],
 )
