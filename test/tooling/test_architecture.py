@@ -56,6 +56,7 @@ FEW_LINES = 80
 # many names of the originals; those of URDF's tags (15) are the model's, too.
 # Early mecanum drives list their joints.
 # What stands on legs is moved less far.
+# evo and KISS-ICP read a bag, in an environment of their own (61 lines of helpers).
 BUDGETS = {
     'modules': 864,
     'code lines': 100_238,
@@ -63,7 +64,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_054,
+    'code lines of helpers in test files': 27_115,
 }
 
 BASE = {
