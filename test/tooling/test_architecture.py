@@ -57,14 +57,15 @@ FEW_LINES = 80
 # Early mecanum drives list their joints.
 # What stands on legs is moved less far.
 # evo and KISS-ICP read a bag, in an environment of their own (61 lines of helpers).
+# Workers of tests colour what an assertion says.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_238,
+    'code lines': 100_244,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_115,
+    'code lines of helpers in test files': 27_119,
 }
 
 BASE = {
