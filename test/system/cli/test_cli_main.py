@@ -115,5 +115,7 @@ def test_libraries_that_write_to_stdout_end_up_on_stderr():
 def test_the_module_runs_either_command():
     result = python('-m', 'amr_description.cli')
     assert result.returncode == 2
-    assert result.stderr == 'usage: python -m amr_description.cli {ros2,check_urdf} ...\n'
+    assert (
+        result.stderr == 'usage: python -m amr_description.cli {ros2,check_urdf,launch_test} ...\n'
+    )
     assert python('-m', 'amr_description.cli', 'check_urdf', '--help').returncode == 0

@@ -136,7 +136,7 @@ def test_what_is_of_no_use_is_told(given, note):
         ),
         ({'frequency': 0.0}, "parameter 'frequency' must be greater than 0, found 0.0"),
         ({'sensor_timeout': -0.1}, "parameter 'sensor_timeout' must be at least 0, found -0.1"),
-        ({'odom0': ''}, "parameter 'odom0' must not be empty, found "),
+        ({'odom0': ''}, "parameter 'odom0' must not be empty, found ''"),
         (
             {'odom0': 'a', 'odom0_queue_size': 0},
             "parameter 'odom0_queue_size' must be at least 1, found 0",

@@ -188,7 +188,7 @@ def test_the_shipped_file_is_without_remarks():
         ),
         (
             '{topics: {a: {topic: "", timeout: 1.0, priority: 1}}}',
-            "parameter 'topics.a.topic' must not be empty, found  ",
+            "parameter 'topics.a.topic' must not be empty, found ''",
         ),
         (
             '{topics: {a: {topic: x, timeout: 1.0, priority: high}}}',
