@@ -20,6 +20,7 @@ PYTEST = [sys.executable, '-m', 'pytest', '-p', 'no:cacheprovider', '--rootdir',
 def run(tmp_path):
     def run(*words):
         environment = {**os.environ, 'ROS_LOG_DIR': str(tmp_path / 'log')}
+        environment.pop('PYTEST_ADDOPTS', None)  # of colcon, for the pytest that runs this
         return subprocess.run(
             [*map(str, words)],
             cwd=tmp_path,
