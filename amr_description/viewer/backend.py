@@ -84,11 +84,6 @@ class Handlers:
         """Have requests of a type carried out so."""
         self._handlers[kind] = handler
 
-    @property
-    def kinds(self) -> frozenset[type]:
-        """The types of requests that are carried out."""
-        return frozenset(self._handlers)
-
     async def carry_out(self, request: Request, page: str) -> Answer:
         """Carry out a request of a page, which is named. Raises AmrError."""
         handler = self._handlers.get(type(request))

@@ -13,7 +13,7 @@ does not answer pings.
 """
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
 from websockets.asyncio.connection import broadcast
 from websockets.asyncio.server import ServerConnection
@@ -69,6 +69,10 @@ class Page:
         """Send the messages that wait, as long as the write buffer is empty."""
         while self._messages and not self.buffered:
             self.send(self._messages.pop(next(iter(self._messages))))
+
+    def retain(self, subjects: Container[str]) -> None:
+        """Drop what waits about all other subjects."""
+        self._messages = {key: each for key, each in self._messages.items() if key[1] in subjects}
 
     def send_samples(self) -> None:
         """Send what waits, as long as the write buffer is empty."""
@@ -190,6 +194,8 @@ class Pages:
         """Drop the latched messages about all other subjects; they are gone."""
         kept = {'', *subjects}
         self._latched = {key: each for key, each in self._latched.items() if key[1] in kept}
+        for page in self._pages.values():
+            page.retain(kept)
 
     def clear_latched(self) -> None:
         """Drop all latched messages: without pages they are not kept up to date."""

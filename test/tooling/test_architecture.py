@@ -28,44 +28,26 @@ MOST_LINES_OF_A_FILE = 600
 MOST_LINES_OF_A_FUNCTION = 60
 MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
-# They only fall: a change may lower one; who raises one writes the reason beside it. The last to
-# raise them were simulations without ROS (recordings, services, actions, frames, replays, films,
-# the page), what a request may name, and robots of others (what is lost is frozen, verdicts by
-# motions, the geometry of plugins, dialects of vendors, what lidars see of them), and trials with
-# their faults and seeds, robots as environments to learn in, arms of plugins that are tried by
-# their topics, what clients of Nav2's servers ask a navigator, and Python packages of ROS that
-# nodes import: nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py,
-# tf_transformations; and what the page says of the graph (frames with a static second parent,
-# clouds in part or whole, errors while nobody looks, what is recorded of it),
-# and what commands of launch files print when their time has come. Of helpers: a listener that
-# gives no answer. diagnostic_updater and rosbag2_py have many names, four of them also the bag's:
-# those of the originals. Bags are also written as files of SQLite.
-# And a mux of velocity commands in the chain.
-# Vendors' files name passthrough controllers. What the page's node does on which of its two
-# threads is said by types; messages to slow pages are replaced by newer ones.
-# A robot without a height stands on what is below it.
-# Launch files of robots start a joystick: joy_node, which reads /dev/input, and teleop_twist_joy.
-# Joints of no tag are simulated for the controllers that claim them.
-# Launch files of others are tried one by one, as robots are.
-# launch_testing and launch_pytest (14 modules, 1.8 k lines): launch tests of robots import them;
-# of helpers, the fakes of their processes.
-# Plugins share the joints of a robot.
-# Who waits for a spawn waits as long as its meshes take.
-# Python halves of C++ packages are built.
-# urdf_parser_py, image_geometry, rosidl_runtime_py and what ros2node.api asks of a graph have the
-# many names of the originals; those of URDF's tags (15) are the model's, too.
-# Early mecanum drives list their joints.
-# What stands on legs is moved less far.
-# evo and KISS-ICP read a bag, in an environment of their own (61 lines of helpers).
-# Workers of tests colour what an assertion says.
+# They only fall: a change may lower one; who raises one writes the reason beside it. The last
+# were: simulations without ROS (recordings, services, actions, frames, replays, films, the page);
+# robots of others (what is lost is frozen, verdicts by motions, geometry and dialects of plugins,
+# joints of no tag, early mecanum drives, what stands on legs or on what is below, meshes that take
+# long); trials, robots to learn in; the page's graph, its two threads as types, slow pages; a mux
+# and passthrough in the chain; launch files (commands at their time, joysticks, tried one by one);
+# Python halves of C++ packages; what clients of Nav2 ask; bags of SQLite; Python packages of ROS,
+# with the many names of the originals: nav2_simple_commander, cv_bridge, laser_geometry,
+# rosidl_runtime_py, tf_transformations, diagnostic_updater, rosbag2_py (four of its names are also
+# the bag's), launch_testing (14 modules), urdf_parser_py (15 of its names are also the model's),
+# image_geometry, ros2node.api. Of helpers: fakes of processes, evo and KISS-ICP, colours of
+# workers.
 BUDGETS = {
     'modules': 864,
-    'code lines': 100_244,
+    'code lines': 100_243,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_120,
+    'code lines of helpers in test files': 27_114,
 }
 
 BASE = {
@@ -197,14 +179,8 @@ FOR_USERS = {
     'ament_copyright',
 }  # fmt: skip
 ABOVE_NODES = {
-    'bringup',
-    'launch_api',
-    'launch_testing',
-    'cli',
-    'testing',
-    'workspace',
-    'amr_description',
-}
+    'bringup', 'launch_api', 'launch_testing', 'cli', 'testing', 'workspace', 'amr_description',
+}  # fmt: skip
 ARROWS['nodes'] = ARROWS.keys() - ABOVE_NODES - FOR_USERS
 ROS = {
     'control/ros', 'sim/ros', 'viewer/ros', 'navigation/ros', 'ros', 'tf2_ros',

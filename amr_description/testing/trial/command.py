@@ -19,7 +19,12 @@ import time
 
 from amr_description.errors import AmrError
 from amr_description.testing.trial.findings import from_json, to_json, TrialFindings
-from amr_description.testing.trial.inputs import descriptions, prefixes, robot_names
+from amr_description.testing.trial.inputs import (
+    descriptions,
+    offer_prefixes,
+    prefixes,
+    robot_names,
+)
 from amr_description.testing.trial.one_robot import Job
 from amr_description.testing.trial.verdict import judge, table, TrialVerdict
 from amr_description.text import one_line
@@ -93,7 +98,6 @@ def _wait(process: subprocess.Popen[bytes], timeout: float) -> tuple[bool, float
 
 _OF_ROBOT = re.compile(r'([^\s:=]+)=(?=[^\s:=]+:=)')
 """``ROBOT=`` before the first argument of a xacro file."""
-_PREFIX_PATH = 'AMENT_PREFIX_PATH'
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -105,9 +109,7 @@ def main(arguments: Sequence[str]) -> int:
     except (AmrError, ValueError) as error:
         print(f'try_robots: {error}', file=sys.stderr)
         return 2
-    own = [*prefixes(options.paths), *(path.resolve() for path in options.prefix)]
-    before = os.environ.get(_PREFIX_PATH, '')
-    os.environ[_PREFIX_PATH] = os.pathsep.join([*map(str, own), *([before] if before else [])])
+    offer_prefixes([*prefixes(options.paths), *options.prefix])
     jobs = [
         Job(
             name,

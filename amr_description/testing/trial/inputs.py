@@ -18,6 +18,7 @@ The parameter file of a robot is, in this order,
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+import os
 from pathlib import Path
 import re
 
@@ -29,6 +30,7 @@ from amr_description.model.gazebo.plugins import plugins_of
 from amr_description.model.xml_reader import parse_xml
 from amr_description.parameter_files import KEY, read_parameter_file, sections
 
+_PREFIX_PATH = 'AMENT_PREFIX_PATH'
 SUFFIXES = ('.urdf', '.xacro')
 DESCRIPTION = 'the description'
 _INDEX = Path('share/ament_index/resource_index/packages')
@@ -102,6 +104,13 @@ def prefixes(paths: Iterable[Path]) -> list[Path]:
     """Return the folders that are install prefixes: those with packages of their own."""
     folders = (path if path.is_dir() else path.parent for path in paths)
     return [each.resolve() for each in dict.fromkeys(folders) if (each / _INDEX).is_dir()]
+
+
+def offer_prefixes(own: Iterable[Path], *, last: bool = False) -> None:
+    """Have this program, and those that it starts, find packages of install prefixes: first."""
+    before = [each for each in os.environ.get(_PREFIX_PATH, '').split(os.pathsep) if each]
+    new = [str(each.resolve()) for each in own]
+    os.environ[_PREFIX_PATH] = os.pathsep.join([*before, *new] if last else [*new, *before])
 
 
 def replaced_copy(file: Path, folder: Path, replacements: Mapping[str, str]) -> Path:

@@ -20,7 +20,7 @@ from amr_description.ament_index import is_installed
 from amr_description.cli.launch_files import launch_files_below
 from amr_description.errors import AmrError, UsageError
 from amr_description.testing.trial.command import given_to
-from amr_description.testing.trial.inputs import prefixes
+from amr_description.testing.trial.inputs import offer_prefixes, prefixes
 from amr_description.testing.trial.launch_trial import (
     LaunchFinding,
     LaunchVerdict,
@@ -28,7 +28,6 @@ from amr_description.testing.trial.launch_trial import (
 )
 
 _GOOD = (LaunchVerdict.DRIVES, LaunchVerdict.COMES_UP, LaunchVerdict.NOTHING)
-_PREFIX_PATH = 'AMENT_PREFIX_PATH'
 _WIDTH = 16
 _PROGRAMS = re.compile(r'^\s*install\s*\(\s*PROGRAMS\s+(.*?)\sDESTINATION\b', re.M | re.S)
 
@@ -112,11 +111,9 @@ def main(arguments: Sequence[str]) -> int:
     with tempfile.TemporaryDirectory(prefix='amr-try-') as folder:
         try:
             files = launch_files(options.paths)
-            own = [*prefixes(options.paths), *(path.resolve() for path in options.prefix)]
-            before = os.environ.get(_PREFIX_PATH, '')
-            os.environ[_PREFIX_PATH] = os.pathsep.join([*map(str, own), before])
+            offer_prefixes([*prefixes(options.paths), *options.prefix])
             index_of_sources(options.paths, Path(folder))
-            os.environ[_PREFIX_PATH] += f'{os.pathsep}{folder}'
+            offer_prefixes([Path(folder)], last=True)
             found = [
                 _try(name, path, options)
                 for name, path in files.items()

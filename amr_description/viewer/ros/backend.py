@@ -67,7 +67,6 @@ from amr_description.viewer.ros.graph_monitor import GraphMonitor
 from amr_description.viewer.ros.page_recorder import PageRecorder
 from amr_description.viewer.ros.parameters import ParameterClients
 from amr_description.viewer.ros.publications import define, Publications
-from amr_description.viewer.ros.robot import still_held
 from amr_description.viewer.ros.ros_side import GraphReporter, RosCalls
 from amr_description.viewer.ros.service_clients import (
     command_timeout,
@@ -146,7 +145,6 @@ class GraphBackend:
         monitor.observer = GraphReporter(monitor, self, self._goals, spawned)
         self._graph: GraphView = monitor
         self._ros = RosCalls(executor, monitor, spawned)
-        self._disconnect = lambda: _disconnect(node, monitor, spawned, self._ros.held)
         self._simulators: dict[str, SimulatorClient] = {}
         self._refresher: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()
@@ -164,7 +162,7 @@ class GraphBackend:
         ended. A bag is completed.
         """
         self._recorder.end()
-        self._disconnect()
+        self._ros.disconnect(self._node.get_logger().warning)
 
     # --- called by the server --------------------------------------------------------------------
 
@@ -567,15 +565,3 @@ class GraphBackend:
 
 def _refuse_bag_request(_: Request) -> NoReturn:
     raise ViewerError('no bag is shown here; `viewer --bag PATH` shows one')
-
-
-def _disconnect(
-    node: Node, monitor: GraphMonitor, spawned: SpawnedRobots, held: AbstractSet[str]
-) -> None:
-    """Close the session, and say which robots stay held; on the ROS thread."""
-    for name in sorted(held & monitor.connections.keys()):
-        connection = monitor.connections[name]
-        if connection.is_locked or connection.deactivated:
-            node.get_logger().warning(still_held(connection))
-    monitor.set_session(0)
-    spawned.retain(())

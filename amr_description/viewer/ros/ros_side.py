@@ -24,7 +24,7 @@ from amr_description.viewer.ros.goals import Goals
 from amr_description.viewer.ros.graph_monitor import GraphMonitor, GraphObserver
 from amr_description.viewer.ros.introspection import GraphMessage
 from amr_description.viewer.ros.markers import LatestDiagnostics, shapes_of
-from amr_description.viewer.ros.robot import RobotConnection
+from amr_description.viewer.ros.robot import RobotConnection, still_held
 from amr_description.viewer.ros.spawned_robots import SpawnedRobots
 from amr_description.viewer.server import Server
 
@@ -78,6 +78,18 @@ class RosCalls:
     def describe(self, robot: str, urdf: str) -> None:
         """Publish the description of a robot that a page has spawned."""
         self._executor.create_task(self._spawned.add, robot, urdf)
+
+    def disconnect(self, warn: Callable[[str], object]) -> None:
+        """
+        Close the session, once the server has ended; on the ROS thread.
+
+        ``warn`` logs which robots stay held: nobody may drive because this node has ended.
+        """
+        for name, robot in sorted(self._monitor.connections.items()):
+            if name in self.held and (robot.is_locked or robot.deactivated):
+                warn(still_held(robot))
+        self._monitor.set_session(0)
+        self._spawned.retain(())
 
 
 class ServerSide(Protocol):

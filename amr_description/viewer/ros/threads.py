@@ -22,7 +22,7 @@ from amr_description.viewer.backend import Hold
 from amr_description.viewer.description import DescribedRobot
 from amr_description.viewer.entities import SpawnedEntity
 from amr_description.viewer.graph import DiscoveredGraph, FoundRobot
-from amr_description.viewer.protocol import Channel, Commanders, RobotInfo, ServerMessage
+from amr_description.viewer.protocol import Channel, Commanders, ServerMessage
 from amr_description.viewer.requests import Part
 from amr_description.viewer.samples import Sample
 
@@ -45,10 +45,6 @@ class ServedRobot(Protocol):
     @property
     def described(self) -> DescribedRobot | None:
         """Its description; None: it has not come yet."""
-
-    @property
-    def info(self) -> RobotInfo:
-        """The robot as in the graph message."""
 
     @property
     def drives(self) -> frozenset[str]:

@@ -30,7 +30,7 @@ def backend(tmp_path):
 
 
 def test_each_request_has_its_handler_but_those_of_a_bag_that_is_shown(backend):
-    assert set(get_args(Request)) - backend.handlers.kinds == OF_A_BAG
+    assert set(get_args(Request)) - backend.handlers._handlers.keys() == OF_A_BAG
 
 
 @pytest.mark.parametrize(
