@@ -13,12 +13,14 @@ from contextlib import contextmanager, ExitStack
 from pathlib import Path
 import shutil
 import subprocess
+import sys
 import time
 
 from support.running_programs import PATIENCE
 
 # Says that it is there, and holds its namespaces until its stdin is closed.
 _HOLD = 'mount -t tmpfs tmpfs /dev/shm && ip link set lo up && echo up && read -r end'
+_RADIO = Path(__file__).with_name('lossy_link.py')
 TOOLS = ('unshare', 'nsenter', 'ip', 'mount')  # util-linux and iproute2
 
 
@@ -64,11 +66,32 @@ class Machine:
         end, other_end = f'eth{address.split(".")[2]}', f'eth{other_address.split(".")[2]}'
         peer = ('peer', 'name', other_end, 'netns', str(other._holder.pid))
         self.do('ip', 'link', 'add', end, 'type', 'veth', *peer)
-        for machine, name, its in ((self, end, address), (other, other_end, other_address)):
-            machine.do('ip', 'address', 'add', its, 'dev', name)
-            machine.do('ip', 'link', 'set', name, 'up')
+        _plug_in((self, end, address), (other, other_end, other_address))
         for machine, name in ((self, end), (other, other_end)):
             machine.wait_for_carrier(name)
+
+    @contextmanager
+    def radio_to(
+        self, other: 'Machine', address: str, other_address: str, *, loss: float, delay: float
+    ) -> Iterator[None]:
+        """
+        Join both by a link that loses frames, as wireless ones do, as long as the context lasts.
+
+        :param loss: Of all frames in either direction, 0 to 1.
+        :param delay: In either direction, s.
+        """
+        ends = (str(self._holder.pid), 'radio0', str(other._holder.pid), 'radio0')
+        user = ('nsenter', f'--target={self._holder.pid}', '--user', '--preserve-credentials')
+        with subprocess.Popen(
+            [*user, '--', sys.executable, str(_RADIO), *ends, str(loss), str(delay)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as radio:  # which closes its stdin at the end: it ends by that
+            if radio.stdout.readline() != 'up\n':
+                raise OSError('no TAP devices')
+            _plug_in((self, 'radio0', address), (other, 'radio0', other_address))
+            yield
 
     def wait_for_carrier(self, interface: str) -> None:
         """
@@ -81,6 +104,13 @@ class Machine:
         while ' state UP ' not in (state := subprocess.check_output(show, text=True)):
             if time.monotonic() > deadline:
                 raise OSError(f'no carrier: {state.strip()}')
+
+
+def _plug_in(*ends: tuple[Machine, str, str]) -> None:
+    """Give interfaces their addresses."""
+    for machine, name, address in ends:
+        machine.do('ip', 'address', 'add', address, 'dev', name)
+        machine.do('ip', 'link', 'set', name, 'up')
 
 
 @contextmanager
