@@ -131,8 +131,12 @@ class ManagerClient:
 
     def has_type(self, controller: str) -> bool:
         """Return whether the manager's parameters hold a type for a controller."""
+        return bool(self.type_of(controller))
+
+    def type_of(self, controller: str) -> str:
+        """Return the type that the manager's parameters hold for a controller; '': none."""
         values = self.query(GetParameters, names=[f'{controller}.type']).values
-        return bool(values and values[0].string_value)
+        return values[0].string_value if values else ''
 
     def load(self, name: str) -> bool:
         """Load a controller."""

@@ -16,7 +16,11 @@ import re
 from typing import Any
 
 from controller_manager_msgs.msg import ControllerState
-from controller_manager_msgs.srv import ListControllers
+from controller_manager_msgs.srv import (
+    ListControllers,
+    ListControllerTypes,
+    ListHardwareInterfaces,
+)
 from lifecycle_msgs.msg import State
 
 from amr_description.control.ros.client import ManagerClient
@@ -26,6 +30,12 @@ from amr_description.errors import AmrError, SimulationError
 from amr_description.ros.log_thread import LoggerLog
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.findings import ControllerFinding
+from amr_description.testing.trial.parts import (
+    is_here,
+    named_in_parameters,
+    NO_SUCH_INTERFACES,
+    NOT_HERE,
+)
 
 SERVICE = 'controller_manager_msgs/srv/ListControllers'
 _TIMEOUT = 30.0
@@ -79,12 +89,17 @@ class BringUp:
     """The controllers of one manager."""
 
     def __init__(
-        self, sim: Simulation, manager: ManagerClient, self_typed: Mapping[str, Path]
+        self,
+        sim: Simulation,
+        manager: ManagerClient,
+        self_typed: Mapping[str, Path],
+        files: Sequence[Path] = (),
     ) -> None:
-        """``self_typed``: controllers that the manager does not know, with their files."""
+        """``self_typed``: controllers that the manager does not know, with their files, of all."""
         self._sim = sim
         self._manager = manager
         self._self_typed = self_typed
+        self._files = files
         self.findings: list[ControllerFinding] = []
 
     def run(self) -> None:
@@ -108,6 +123,7 @@ class BringUp:
                 break
             waiting = left
         self._take_over()
+        self._say_what_lacks()
 
     def active(self) -> list[Active]:
         """Return the controllers that are active now."""
@@ -150,6 +166,31 @@ class BringUp:
             return False
         finding.state, finding.reason = 'active', ''
         return True
+
+    def _say_what_lacks(self) -> None:
+        """Say of each that is not active what it cannot be active without, and what it names."""
+        listed = {each.name: each for each in self._listed()}
+        answer = self._manager.query(ListHardwareInterfaces)
+        commands = {each.name for each in answer.command_interfaces}
+        states = {each.name for each in answer.state_interfaces}
+        known = self._manager.query(ListControllerTypes).types
+        for finding in self.findings:
+            if finding.state == 'active':
+                continue
+            needed: list[str] = []
+            if each := listed.get(finding.name):
+                needed = [*each.required_command_interfaces, *each.required_state_interfaces]
+                if not (
+                    commands.issuperset(each.required_command_interfaces)
+                    and states.issuperset(each.required_state_interfaces)
+                ):
+                    finding.without = NO_SUCH_INTERFACES
+            else:
+                finding.type = finding.type or self._manager.type_of(finding.name)
+                if finding.type and not is_here(finding.type, known):
+                    finding.without = NOT_HERE
+            joints = {name.rpartition('/')[0] for name in needed}
+            finding.names = sorted(joints | named_in_parameters(finding.name, self._files))
 
     def _take_over(self) -> None:
         """Take type and state of each from the manager."""

@@ -47,6 +47,10 @@ class ControllerFinding:
     """``active``, ``inactive``, ``unconfigured``, or ``not loaded``."""
     reason: str = ''
     """Why it is not active, or what gave way to it."""
+    without: str = ''
+    """What the machine or the description has not, so that it cannot be active; '': nothing."""
+    names: list[str] = field(default_factory=list)
+    """What its parameters and interfaces name, joints among them; of one that is not active."""
 
 
 @dataclass
@@ -89,6 +93,8 @@ class TrialFindings:
     """WARN and ERROR lines of the simulator."""
     posture: list[str] = field(default_factory=list)
     """That it falls, has tipped over, explodes, or was frozen: at rest, or after a motion."""
+    spare: list[str] = field(default_factory=list)
+    """Controllers that cannot be active, and whose joints others have moved."""
     has_drive: bool = True
     """Whether its description has anything that drives: commands of joints, or a plugin."""
     faults: list[str] = field(default_factory=list)

@@ -45,6 +45,7 @@ from amr_description.testing.trial.inputs import (
     TrialParameters,
 )
 from amr_description.testing.trial.moving import is_moved, JointStates, Mover
+from amr_description.testing.trial.parts import split
 from amr_description.testing.trial.posture import Posture
 from amr_description.testing.trial.verdict import cause_of, describe, explanations
 from amr_description.text import one_line, quote_all
@@ -167,7 +168,7 @@ class Trial:
                 if manager is None:
                     self.found.undriven.append('there is no controller manager')
                 else:
-                    bring_up = BringUp(sim, manager, self_typed(given.files))
+                    bring_up = BringUp(sim, manager, self_typed(given.files), given.files)
                     self._controllers(sim, parse(text), bring_up, posture)
                 self._miss_motions(declared)
                 self._enter('end')
@@ -193,16 +194,21 @@ class Trial:
         self.found.controllers = bring_up.findings
         bring_up.run()
         self._enter('motion')
+        moved: set[str] = set()
         for active in _in_turn(bring_up):
             if not active[-1].claimed:
                 self._publishers.add(active[-1].name)
             count = len(self.found.motions)
             self._move(sim, robot, active)
+            if len(self.found.motions) > count:
+                moved |= {part for each in active[-1].claimed for part in each.split('/')}
             self._look(posture, self.found.motions[count:])
             self._keep(self.found)
-        for each in bring_up.findings:
-            if each.state != 'active':
-                self._fault(f'{each.name} ({each.type}) is {each.state}: {one_line(each.reason)}')
+        joints = [each.name for each in robot.joints if each.has_position]
+        lacking, spare = split(bring_up.findings, joints, moved)
+        for each in lacking:
+            self._fault(f'{each.name} ({each.type}) is {each.state}: {one_line(each.reason)}')
+        self.found.spare = [f'{each.name} ({each.type}): {each.without}' for each in spare]
         for motion in self.found.motions:
             if motion.is_fine:
                 continue

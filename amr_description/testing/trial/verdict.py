@@ -41,7 +41,7 @@ class TrialVerdict(StrEnum):
 
 @dataclass(frozen=True)
 class Judgement:
-    """A verdict, and why it is no better; '' for a robot that moved as told."""
+    """A verdict, and why it is no better; of a robot that moved as told, what it did without."""
 
     verdict: TrialVerdict
     reason: str = ''
@@ -62,7 +62,14 @@ def judge(found: TrialFindings) -> Judgement:
     if not any(map(gets_away, found.motions)):
         nothing = [*found.undriven, 'no active controller is one that moves']
         return Judgement(TrialVerdict.NOT, [*reasons, *nothing][0])
-    return Judgement(TrialVerdict.OFF, reasons[0]) if reasons else Judgement(TrialVerdict.AS_TOLD)
+    if reasons:
+        return Judgement(TrialVerdict.OFF, reasons[0])
+    return Judgement(TrialVerdict.AS_TOLD, _without(found.spare))
+
+
+def _without(spare: Sequence[str]) -> str:
+    """Return which controllers a robot did without; '': it has all."""
+    return f'without {"; ".join(spare)}' if spare else ''
 
 
 def gets_away(motion: MotionResult) -> bool:
@@ -230,6 +237,7 @@ def table(findings: Sequence[TrialFindings], *, details: bool = True) -> str:
             if judged.reason:
                 lines.append(_shortened(f'    {judged}'))
             lines += [_shortened(f'    posture: {each}') for each in found.posture]
+            lines += [_shortened(f'    without: {each}') for each in found.spare]
             lines += [_shortened(f'    fault: {fault}') for fault in found.faults]
             lines += [_shortened(f'    explained: {each}') for each in found.explained]
             lines += [_shortened(f'    {warning}') for warning in _short_list(found.warnings)]
@@ -255,4 +263,10 @@ def tells(findings: Sequence[TrialFindings]) -> str:
         for each, verdict in zip(findings, verdicts, strict=True)
     )
     more = f', {inert} of them without anything in their description that drives' if inert else ''
+    spared = sum(
+        verdict is TrialVerdict.AS_TOLD and bool(each.spare)
+        for each, verdict in zip(findings, verdicts, strict=True)
+    )
+    if spared:
+        parts[0] += f', {spared} of them without controllers that cannot be here'
     return f'{len(findings)} tried: {"; ".join(parts)}{more}'
