@@ -33,13 +33,13 @@ FEW_LINES = 80
 # robots of others (what is lost is frozen, verdicts by motions, geometry and dialects of plugins,
 # joints of no tag, early mecanum drives, controllers to do without, what stands on legs or on what
 # is below, meshes that take long); trials, robots to learn in; the page's graph, its two threads
-# as types, slow pages; a mux and passthrough in the chain; launch files (commands at their time, joysticks, tried one by one);
-# Python halves of C++ packages; what clients of Nav2 ask; bags of SQLite; Python packages of ROS,
-# with the many names of the originals: nav2_simple_commander, cv_bridge, laser_geometry,
-# rosidl_runtime_py, tf_transformations, diagnostic_updater, rosbag2_py (four of its names are also
-# the bag's), launch_testing (14 modules), urdf_parser_py (15 of its names are also the model's),
-# image_geometry, ros2node.api. Of helpers: fakes of processes, evo and KISS-ICP, colours of
-# workers.
+# as types, slow pages; a mux and passthrough in the chain; launch files (commands at their time,
+# joysticks, tried one by one); Python halves of C++ packages; what clients of Nav2 ask; bags of
+# SQLite; Python packages of ROS, with the many names of the originals: nav2_simple_commander,
+# cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations, diagnostic_updater, rosbag2_py
+# (four of its names are also the bag's), launch_testing (14 modules), urdf_parser_py (15 of its
+# names are also the model's), image_geometry, ros2node.api. Of helpers: fakes of processes, evo
+# and KISS-ICP, colours of workers.
 BUDGETS = {
     'modules': 865,
     'code lines': 100_345,
