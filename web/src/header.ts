@@ -29,7 +29,7 @@ export class Header {
 
   constructor(
     private readonly app: App,
-    actions: { flipTheme: () => void; openPanels: () => void },
+    actions: { flipTheme: () => void; openPanels: () => void; reset: () => void },
   ) {
     this.play = button('', () => this.playOrPause(), { title: 'Pause' });
     this.play.classList.add('play');
@@ -49,6 +49,8 @@ export class Header {
     );
     this.robots.addEventListener('change', () => app.store.choose(this.robots.value));
     const theme = button('', actions.flipTheme, { icon: 'theme', title: 'Light or dark' });
+    const layout = button('', actions.reset, { icon: 'layout', title: 'Layout as at first' });
+    layout.classList.add('reset-layout');
     const panels = button('Panels', actions.openPanels, { icon: 'panels', title: 'Panels' });
     panels.classList.add('open-panels');
     panels.setAttribute('aria-label', 'Panels'); // on a narrow page only the icon is seen
@@ -64,6 +66,7 @@ export class Header {
       recordButton(app),
       h('div', { class: 'clock' }, this.time, this.real),
       h('span', { class: 'grow' }),
+      layout,
       theme,
       panels,
     );

@@ -15,6 +15,11 @@ export const ICONS = {
   up: 'M3 10.5 8 5.5l5 5z',
   copy: 'M5 1h8a1 1 0 0 1 1 1v9h-1.5V2.5H5zM3 4h7a1 1 0 0 1 1 1v9a1 1 0 0 1-1 1H3a1 1 0 0 1-1-1V5a1 1 0 0 1 1-1zm.5 1.5v8h6v-8z',
   done: 'M6.3 13 1.5 8.2l1.4-1.4 3.4 3.4 7-7 1.4 1.4z',
+  // Where a tool stands: in the window, the part that it takes.
+  beside: 'M1 2h14v12H1zm1.3 1.3v9.4h11.4V3.3zM7.5 4.5h5v7h-5z',
+  below: 'M1 2h14v12H1zm1.3 1.3v9.4h11.4V3.3zM3.5 8.5h9v3h-9z',
+  column: 'M1 2h14v12H1zm1.3 1.3v9.4h11.4V3.3zM10.5 4.5h2v7h-2z',
+  layout: 'M1 2h14v12H1zm1.3 1.3v9.4h11.4V3.3zM7.4 3h1.2v10H7.4zM8 7.4h6v1.2H8z',
   // Of tabs, by the names of their panels.
   model: 'M8 1 14 4.3v7.4L8 15 2 11.7V4.3zm0 1.7L4.7 4.5 8 6.3l3.3-1.8zM3.5 5.7v5.1l3.8 2.1V7.8zm9 0L8.8 7.8v5.1l3.7-2.1z',
   joints: 'M2 3.2h6.2a2 2 0 0 1 3.6 0H14v1.6h-2.2a2 2 0 0 1-3.6 0H2zm0 4h1.2a2 2 0 0 1 3.6 0H14v1.6H6.8a2 2 0 0 1-3.6 0H2zm0 4h7.2a2 2 0 0 1 3.6 0H14v1.6h-1.2a2 2 0 0 1-3.6 0H2z',

@@ -38,6 +38,7 @@ import { Tabs } from './tabs';
 import { watchTheme } from './theme';
 import { View } from './view';
 import { Watcher } from './watcher';
+import { Workspace } from './workspace';
 
 const ALARMS = ['alarms'] as const;
 const PULSE = 100; // ms between two updates of the numbers
@@ -66,14 +67,15 @@ const sensing = new Sensing(store);
 
 const view = new View(app, sensing);
 view.element.append(navigationBar(app, view.scene));
-const drive = new DrivePanel(app);
 view.element.append(timeLine(app));
 const series = seriesFeed(app);
 const plots = new PlotsPanel(app, recorder, {
   plot: (...wish) => (store.recording === null ? channels : series).plot(...wish),
 });
 const sensors = sensorsPanel(app, sensing);
-const tabs = new Tabs('tab');
+const workspace = new Workspace();
+const drive = new DrivePanel(app, (small) => workspace.setDriveSmall(small));
+const tabs = new Tabs('tab', workspace);
 for (const panel of [
   modelPanel(app),
   jointsPanel(app),
@@ -89,12 +91,17 @@ for (const panel of [
 ]) {
   tabs.add(panel);
 }
-const shell = arrange(app, { view, drive, plots, tabs });
+const shell = arrange(app, { view, drive, plots, tabs, workspace });
+workspace.onChange = () => {
+  drive.setSmall(workspace.isDriveSmall);
+  tabs.arrange();
+};
+drive.setSmall(workspace.isDriveSmall);
 const theme = watchTheme((now) => {
   view.setTheme(now);
   plots.repaint();
 });
-const header = new Header(app, { flipTheme: theme.flip, openPanels: shell.openPanels });
+const header = new Header(app, { flipTheme: theme.flip, openPanels: shell.openPanels, reset: shell.reset });
 const skip = h('a', { class: 'skip', href: '#drive' }, 'Skip to driving');
 document.body.prepend(skip, header.element);
 document.body.append(announce(app));

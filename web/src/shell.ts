@@ -9,23 +9,40 @@ import { splitter } from './splitter';
 import type { State } from './state';
 import type { Store } from './store';
 import type { Tabs } from './tabs';
+import type { Workspace } from './workspace';
 
 interface Parts {
   view: { element: HTMLElement };
   drive: Panel;
   plots: Panel;
   tabs: Tabs;
+  workspace: Workspace;
 }
 
 export interface Shell {
   openPanels: () => void;
+  /** Have all parts stand where they stand at first. */
+  reset: () => void;
   pulse(state: State): void;
 }
 
-export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Shell {
+export function arrange({ store }: App, { view, drive, plots, tabs, workspace }: Parts): Shell {
   const { body } = document;
   const dock = h('div', { class: 'dock' });
-  const bar = splitter('dock', 'Height of the plots');
+  const bars = {
+    dock: splitter({
+      name: 'dock', label: 'Height of the plots', part: () => tabs.at('below') ?? dock,
+      least: 0.12, most: 0.75, usual: 0.3,
+    }),
+    side: splitter({
+      name: 'side', label: 'Width of the column', part: () => driving, beside: true,
+      least: 0.2, most: 0.6, usual: 0.3,
+    }),
+    beside: splitter({
+      name: 'beside', label: 'Width beside the scene', part: () => tabs.at('beside'), beside: true,
+      least: 0.15, most: 0.7, usual: 0.36,
+    }),
+  };
   const close = button('', () => setSheet(false), { icon: 'close', title: 'Close the panels' });
   const head = h('div', { class: 'sheet-head' }, close);
   const title = h('h2', { class: 'unseen' }, 'Panels');
@@ -35,6 +52,8 @@ export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Sh
   drive.element.tabIndex = -1; // where "Skip to driving" leads
   const driving = h('div', { class: 'driving' }, drive.element);
   tabs.add(slot);
+  bars.side.element.classList.add('of-column');
+  bars.beside.element.classList.add('of-beside');
   body.append(view.element, dock, driving, sheet);
 
   const fold = button('', () => setFolded(!dock.classList.contains('folded')), { kind: 'quiet' });
@@ -69,15 +88,34 @@ export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Sh
     }
     form = now;
     body.dataset.form = now;
-    (now === 'desk' ? dock : slot.element).append(plots.element);
-    if (now === 'desk') {
-      plots.element.prepend(bar); // in it, as it belongs to that landmark
-    } else {
-      bar.remove();
-    }
-    tabs.setHidden('plots', now === 'desk');
-    tabs.stand(now === 'desk' ? 'vertical' : 'horizontal');
+    tabs.stand(now === 'desk');
     setSheet(opensPanels(width, height));
+  }
+
+  /** Plots stand under the scene where nothing else does; each part has its bar. */
+  function standPlots(): void {
+    const [beside, below] = [tabs.at('beside') !== null, tabs.at('below') !== null];
+    const isDocked = form === 'desk' && !below && workspace.placeOf('plots') === null;
+    const place = isDocked ? dock : slot.element;
+    if (plots.element.parentElement !== place) {
+      place.append(plots.element);
+      tabs.setHidden('plots', isDocked);
+    }
+    body.classList.toggle('beside', beside);
+    body.classList.toggle('below', below);
+    body.classList.toggle('undocked', form === 'desk' && !below && !isDocked);
+    const wanted = [
+      [bars.dock.element, isDocked ? plots.element : sheet, isDocked || below], // in the landmark that it is of
+      [bars.side.element, sheet, form === 'desk'],
+      [bars.beside.element, sheet, beside],
+    ] as const;
+    for (const [bar, parent, isThere] of wanted) {
+      if (isThere && bar.parentElement !== parent) {
+        parent.prepend(bar);
+      } else if (!isThere) {
+        bar.remove();
+      }
+    }
   }
 
   store.watch(['graph', 'robot', 'controllers', 'simulation', 'recording'], () => {
@@ -97,10 +135,16 @@ export function arrange({ store }: App, { view, drive, plots, tabs }: Parts): Sh
       }
     }
   });
+  tabs.onStand = standPlots;
   window.addEventListener('resize', settle);
   setFolded(recall('folded') === 'yes');
   settle();
   return {
+    reset: () => {
+      setFolded(false);
+      Object.values(bars).forEach(({ reset }) => reset());
+      workspace.reset();
+    },
     openPanels: () => {
       setSheet(sheet.inert);
       if (!sheet.inert) {

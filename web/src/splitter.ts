@@ -1,41 +1,67 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** A bar between a part of the page and the one below it, that is dragged or moved by keys. */
+/** A bar at the start of a part of the page, that is dragged or moved by keys: the part ends where it ends. */
+import { forgetLink, linkPart } from './address';
 import { h } from './dom';
 import { recall, remember } from './remember';
 
-const LEAST = 0.12; // of the height of the window
-const MOST = 0.75;
 const STEP = 0.03;
-const USUAL = 0.3; // what the style sheet wants, about
 
-/** `name`: that of the CSS variable, and under which the height is kept; `label`: of the bar. */
-export function splitter(name: string, label: string): HTMLElement {
+interface About {
+  name: string; // that of the CSS variable, and under which the size is kept
+  label: string;
+  /** Between parts beside one another, else below one another. */
+  beside?: boolean;
+  part: () => Element | null; // whose size it is
+  /** Shares of the window. `usual`: what the style sheet wants, about. */
+  least: number;
+  most: number;
+  usual: number;
+}
+
+export interface Splitter {
+  readonly element: HTMLElement;
+  /** As it was at first. */
+  reset: () => void;
+  readonly isMoved: boolean;
+}
+
+export function splitter({ name, label, beside = false, part, least, most, usual }: About): Splitter {
   const bar = h('div', {
-    class: 'splitter',
+    class: beside ? 'splitter upright' : 'splitter',
     role: 'separator',
     tabindex: 0,
     'aria-label': label,
-    'aria-orientation': 'horizontal',
-    'aria-valuemin': 100 * LEAST,
-    'aria-valuemax': 100 * MOST,
-    title: 'Drag, or the up and down arrow keys; a double click: as it was',
+    'aria-orientation': beside ? 'vertical' : 'horizontal',
+    'aria-valuemin': 100 * least,
+    'aria-valuemax': 100 * most,
+    title: `Drag, or the ${beside ? 'left and right' : 'up and down'} arrow keys; a double click: as it was`,
   });
-  let share: number | null = null; // of the window's height; null: what the style sheet wants
+  let share: number | null = null; // of the window's size; null: what the style sheet wants
 
   const set = (wanted: number | null): void => {
-    share = wanted === null ? null : Math.min(MOST, Math.max(LEAST, wanted));
+    share = wanted === null ? null : Math.min(most, Math.max(least, wanted));
     const { style } = document.body;
     if (share === null) {
       style.removeProperty(`--${name}`);
     } else {
-      style.setProperty(`--${name}`, `${100 * share}vh`);
+      style.setProperty(`--${name}`, `${100 * share}${beside ? 'vw' : 'vh'}`);
     }
-    bar.setAttribute('aria-valuenow', String(Math.round(100 * (share ?? USUAL))));
+    bar.setAttribute('aria-valuenow', String(Math.round(100 * (share ?? usual))));
   };
-  const keep = (): void => remember(name, share === null ? '' : share.toFixed(3));
-  /** The height below the bar now, of the window's. */
-  const now = (): number => 1 - bar.getBoundingClientRect().bottom / window.innerHeight;
+  const keep = (): void => {
+    remember(name, share === null ? '' : share.toFixed(3));
+    forgetLink();
+  };
+  const reset = (): void => {
+    set(null);
+    keep();
+  };
+  const whole = (): number => (beside ? window.innerWidth : window.innerHeight);
+  const box = (): DOMRect | undefined => part()?.getBoundingClientRect();
+  const end = (): number => (beside ? box()?.right : box()?.bottom) ?? whole();
+  /** The part's size now, of the window's. */
+  const now = (): number => ((beside ? box()?.width : box()?.height) ?? 0) / whole();
 
   bar.addEventListener('pointerdown', (event) => {
     event.preventDefault();
@@ -44,24 +70,29 @@ export function splitter(name: string, label: string): HTMLElement {
   });
   bar.addEventListener('pointermove', (event) => {
     if (bar.hasPointerCapture(event.pointerId)) {
-      set(1 - event.clientY / window.innerHeight);
+      set((end() - (beside ? event.clientX : event.clientY)) / whole());
     }
   });
   bar.addEventListener('lostpointercapture', keep);
-  bar.addEventListener('dblclick', () => {
-    set(null);
-    keep();
-  });
+  bar.addEventListener('dblclick', reset);
   bar.addEventListener('keydown', (event) => {
-    const step = { ArrowUp: STEP, ArrowDown: -STEP }[event.key];
+    const [larger, smaller] = beside ? (['ArrowLeft', 'ArrowRight'] as const) : (['ArrowUp', 'ArrowDown'] as const);
+    const step = { [larger]: STEP, [smaller]: -STEP }[event.key as typeof larger | typeof smaller];
     if (step !== undefined) {
       event.preventDefault();
       event.stopPropagation(); // the robot is not meant
-      set((share ?? now()) + step);
+      set(now() + step);
       keep();
     }
   });
-  const kept = Number.parseFloat(recall(name) ?? '');
+  const text = linkPart(name, () => share?.toFixed(3) ?? '') ?? recall(name) ?? '';
+  const kept = Number.parseFloat(text);
   set(Number.isFinite(kept) ? kept : null);
-  return bar;
+  return {
+    element: bar,
+    reset,
+    get isMoved() {
+      return share !== null;
+    },
+  };
 }

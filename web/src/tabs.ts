@@ -1,20 +1,32 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Panels one at a time, chosen by tabs as in the ARIA practices: arrows move, Tab leaves. */
+/**
+ * Panels one at a time, chosen by tabs as in the ARIA practices: arrows move, Tab leaves. On a desk
+ * some of them stand large elsewhere, see workspace.ts: their tabs lead there.
+ */
+import { forgetLink, linkPart } from './address';
 import type { Panel } from './app';
-import { h, icon, setText } from './dom';
+import { button as makeButton, h, icon, setText } from './dom';
 import { ICONS, type IconName } from './icons';
 import { showOverflow } from './overflow';
 import type { Part } from './protocol';
 import { recall, remember } from './remember';
 import type { State } from './state';
+import { PLACES, type Place, type Workspace } from './workspace';
 
 interface Tab {
   panel: Panel;
   button: HTMLButtonElement;
   badge: HTMLElement;
   body: HTMLElement;
+  movers: Map<Place | null, HTMLButtonElement>; // by where they put it; null: into the column
 }
+
+const MOVES = {
+  beside: 'Large, beside the scene',
+  below: 'Large, over the plots',
+  column: 'Back into the column',
+} as const;
 
 /** The order of the tabs by what they are about: the robot, what runs it, the ROS graph. */
 const GROUPS: readonly (readonly string[])[] = [
@@ -30,9 +42,16 @@ export class Tabs {
   private readonly tabs: Tab[] = [];
   private active: Tab | null = null;
   private suggested: string | null = null;
+  private isDesk = false; // else one tool at a time
+  private linked = linkPart('tab', () => this.active?.panel.id ?? '');
+  /** What stands at the places is another tool. */
+  onStand: () => void = () => {};
 
   /** `name`: of what is remembered; the kind of the graph is added to it. */
-  constructor(private name: string) {
+  constructor(
+    private name: string,
+    private readonly workspace: Workspace,
+  ) {
     this.element.append(this.list);
     this.list.addEventListener('keydown', (event) => this.move(event));
     showOverflow(this.list);
@@ -53,6 +72,9 @@ export class Tabs {
       h('span', {}, panel.title),
       badge,
     );
+    const movers = new Map(
+      [...PLACES, null].map((place) => [place, this.mover(panel.id, place)] as const),
+    );
     const body = h(
       'div',
       {
@@ -63,6 +85,7 @@ export class Tabs {
         tabindex: 0,
         hidden: true,
       },
+      h('div', { class: 'panel-head' }, h('h2', {}, panel.title), ...movers.values()),
       panel.element,
     );
     if (GROUPS.some(([first]) => first === panel.id)) {
@@ -70,7 +93,7 @@ export class Tabs {
     }
     const at = this.tabs.findIndex((tab) => rank(tab.panel.id) > rank(panel.id));
     const next = this.tabs[at];
-    this.tabs.splice(next === undefined ? this.tabs.length : at, 0, { panel, button, badge, body });
+    this.tabs.splice(next === undefined ? this.tabs.length : at, 0, { panel, button, badge, body, movers });
     this.list.insertBefore(button, next?.button ?? null);
     this.element.append(body);
     this.settle();
@@ -101,10 +124,22 @@ export class Tabs {
     return isNew;
   }
 
-  /** Whether the tabs stand in a column: arrow keys go along it. */
-  stand(orientation: 'vertical' | 'horizontal'): void {
-    this.list.setAttribute('aria-orientation', orientation);
-    this.active?.button.scrollIntoView({ inline: 'nearest', block: 'nearest' });
+  /** On a desk the tabs stand in a column, along which arrow keys go, and tools may stand large. */
+  stand(isDesk: boolean): void {
+    this.isDesk = isDesk;
+    this.list.setAttribute('aria-orientation', isDesk ? 'vertical' : 'horizontal');
+    this.list.ariaMultiSelectable = isDesk ? 'true' : null;
+    this.settle();
+  }
+
+  /** The tool that stands at a place now. */
+  at(place: Place): HTMLElement | null {
+    return this.shown.find((tab) => this.placeOf(tab) === place)?.body ?? null;
+  }
+
+  /** Have tools stand where the workspace has them. */
+  arrange(): void {
+    this.settle();
   }
 
   /** A number on a tab: what waits to be seen there. */
@@ -118,10 +153,14 @@ export class Tabs {
     }
   }
 
-  /** Show a panel, and remember that it was chosen. */
+  /** Show a panel, and remember that it was chosen; one that stands large is led to. */
   show(id: string): void {
     const wanted = this.shown.find(({ panel }) => panel.id === id);
-    if (wanted !== undefined) {
+    if (wanted !== undefined && this.placeOf(wanted) !== null) {
+      wanted.body.focus();
+    } else if (wanted !== undefined) {
+      this.linked = null;
+      forgetLink();
       remember(this.name, id);
       this.activate(wanted);
     }
@@ -129,52 +168,78 @@ export class Tabs {
 
   /** Show what was chosen, else what is suggested, else the first that is there. */
   private settle(): void {
-    const wanted = [recall(this.name), this.suggested, this.shown[0]?.panel.id];
-    const found = wanted.map((id) => this.shown.find(({ panel }) => panel.id === id));
-    const tab = found.find((each) => each !== undefined);
-    if (tab !== undefined) {
-      this.activate(tab);
-    }
+    const inColumn = this.shown.filter((tab) => this.placeOf(tab) === null);
+    const wanted = [this.linked, recall(this.name), this.suggested, inColumn[0]?.panel.id];
+    const found = wanted.map((id) => inColumn.find(({ panel }) => panel.id === id));
+    this.activate(found.find((each) => each !== undefined) ?? null);
+    this.onStand();
   }
 
-  private activate(wanted: Tab): void {
+  private activate(wanted: Tab | null): void {
     this.active = wanted;
+    const first = wanted ?? this.shown[0];
     for (const tab of this.tabs) {
-      const active = tab === wanted;
-      tab.body.hidden = !active;
-      tab.button.tabIndex = active ? 0 : -1;
-      tab.button.setAttribute('aria-selected', String(active));
+      const place = tab.button.hidden ? null : this.placeOf(tab);
+      const isSeen = tab === wanted || place !== null;
+      tab.body.hidden = !isSeen;
+      tab.body.dataset.place = place ?? 'column';
+      tab.button.tabIndex = tab === first ? 0 : -1;
+      tab.button.setAttribute('aria-selected', String(isSeen));
+      tab.button.classList.toggle('away', place !== null);
+      for (const [to, mover] of tab.movers) {
+        mover.hidden = to === place;
+      }
     }
-    wanted.button.scrollIntoView({ inline: 'nearest', block: 'nearest' });
+    wanted?.button.scrollIntoView({ inline: 'nearest', block: 'nearest' });
+  }
+
+  private placeOf({ panel }: Tab): Place | null {
+    return this.isDesk ? this.workspace.placeOf(panel.id) : null;
+  }
+
+  /** A button that has a tool stand elsewhere. */
+  private mover(id: string, to: Place | null): HTMLButtonElement {
+    const name = to ?? 'column';
+    const move = (): void => {
+      const tab = this.tabs.find(({ panel }) => panel.id === id);
+      this.workspace.put(id, to);
+      if (to === null) {
+        this.show(id);
+      }
+      [...(tab?.movers.values() ?? [])].find(({ hidden }) => !hidden)?.focus(); // this one is gone
+    };
+    return makeButton('', move, { icon: name, title: MOVES[name], kind: 'quiet' });
   }
 
   private get shown(): Tab[] {
     return this.tabs.filter(({ button }) => !button.hidden);
   }
 
+  /** Panels that can be seen now. */
+  private get seen(): Panel[] {
+    const isVisible = this.element.closest('[inert]') === null;
+    return isVisible ? this.tabs.filter(({ body }) => !body.hidden).map(({ panel }) => panel) : [];
+  }
+
   /** What can be seen now of the parts that come only on demand. */
   get watches(): readonly Part[] {
-    return (this.isVisible && this.active?.panel.watches) || [];
+    return this.seen.flatMap(({ watches }) => watches ?? []);
   }
 
   /** The topics of sensors that can be seen now. */
   get topics(): readonly string[] {
-    return (this.isVisible && this.active?.panel.topics) || [];
+    return this.seen.flatMap(({ topics }) => topics ?? []);
   }
 
   pulse(state: State): void {
-    if (this.isVisible) {
-      this.active?.panel.pulse?.(state);
+    for (const panel of this.seen) {
+      panel.pulse?.(state);
     }
-  }
-
-  private get isVisible(): boolean {
-    return this.element.closest('[inert]') === null;
   }
 
   private move(event: KeyboardEvent): void {
     const { shown } = this;
-    const at = shown.findIndex((tab) => tab === this.active);
+    const at = shown.findIndex(({ button }) => button === event.target);
     const [next, previous] =
       this.list.getAttribute('aria-orientation') === 'vertical'
         ? ['ArrowDown', 'ArrowUp']
@@ -188,7 +253,9 @@ export class Tabs {
     const wanted = shown[to[event.key] ?? -1];
     if (wanted !== undefined) {
       event.preventDefault();
-      this.show(wanted.panel.id);
+      if (this.placeOf(wanted) === null) {
+        this.show(wanted.panel.id);
+      }
       wanted.button.focus();
     }
   }

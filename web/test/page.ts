@@ -24,6 +24,8 @@ Object.assign(globalThis, {
   DOMParser: page.DOMParser,
   Document: page.XMLDocument, // which is what its parser returns
   Element: page.Element,
+  ResizeObserver: page.ResizeObserver,
+  MutationObserver: page.MutationObserver,
   requestAnimationFrame: (call: FrameRequestCallback) => page.requestAnimationFrame(call),
   getSelection: () => page.getSelection(),
 });
@@ -65,6 +67,11 @@ export function connectedApp(): TestApp {
   });
   const say = (message: ServerMessage): void => socket.onMessage(JSON.stringify(message));
   return { store, connection, pilot, channels: new Channels(), sent, say };
+}
+
+/** Have the page's address end with a fragment. */
+export function atFragment(hash: string): void {
+  page.location.hash = hash;
 }
 
 /** The texts of the elements that a selector finds in a panel. */

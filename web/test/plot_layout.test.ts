@@ -10,7 +10,7 @@ const SPEED = { topic: '/odom', path: 'twist.twist.linear.x' };
 const TURN = { topic: '/imu', path: 'angular_velocity.z' };
 const USUAL = 'linear;angular;wheels;factor';
 
-function layout(kept: string | null = null, link = ''): PlotLayout & { kept: string[] } {
+function layout(kept: string | null = null, link: string | null = null): PlotLayout & { kept: string[] } {
   const texts: string[] = [];
   return Object.assign(new PlotLayout(kept, (text) => texts.push(text), link), { kept: texts });
 }
@@ -82,14 +82,14 @@ test('a layout is the same after it was kept or sent as a link', () => {
   const text = 'linear,/odom:twist.twist.linear.x@-1..1;/scan:ranges%5B3%5D;wheels@..2.5';
   assert.equal(encode(decode(text)), text);
   assert.equal(encode(layout(text).charts), text);
-  const shared = layout(USUAL, `#plots=${text}`);
+  const shared = layout(USUAL, text);
   assert.equal(encode(shared.charts), text);
-  assert.equal(shared.link, `#plots=${text}`);
+  assert.equal(shared.text, text);
   assert.deepEqual(shared.kept, [], 'one’s own layout stays until something is changed');
 });
 
 test('of a link that is none, nothing is taken', () => {
-  for (const text of ['', '#drive', '#plots=', '#plots=%zz;;@;,', '#plots=nonsense,<b>']) {
+  for (const text of ['', '%zz;;@;,', 'nonsense,<b>']) {
     assert.equal(encode(layout(null, text).charts), USUAL, text);
   }
   assert.equal(encode(decode('linear@2..1')), 'linear', 'bounds in disorder are none');

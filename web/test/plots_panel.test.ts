@@ -11,9 +11,6 @@ type Follower = Parameters<FieldFeed['plot']>[2];
 // What a chart needs of a browser, beyond a document: it has no size here, so that nothing is drawn.
 Object.assign(window, { matchMedia: () => ({ matches: false, addEventListener: () => {} }) });
 Object.assign(globalThis, {
-  ResizeObserver: class {
-    observe(): void {}
-  },
   requestAnimationFrame: (call: () => void) => setTimeout(call),
   matchMedia: window.matchMedia,
   devicePixelRatio: 1,

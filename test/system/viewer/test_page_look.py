@@ -288,3 +288,132 @@ def test_axe_finds_no_violation(page, request, form, theme):
         if violated := violations(page):
             found[tab] = violated
     assert found == {}
+
+
+def press(page, tool, title):
+    """Press a button at the head of a tool."""
+    page.evaluate(
+        f'document.querySelector(\'#panel-{tool} .panel-head [title="{title}"]\').click()'
+    )
+
+
+def box(page, selector):
+    """Where an element is."""
+    return page.evaluate(f"document.querySelector('{selector}').getBoundingClientRect().toJSON()")
+
+
+BESIDE, BELOW, BACK = 'Large, beside the scene', 'Large, over the plots', 'Back into the column'
+
+
+@pytest.fixture
+def desk(page):
+    """The page on a small laptop, where all stands as at first; so it does afterwards."""
+    be(page, (1280, 720, False), 'desk')
+    yield page
+    be(page, (1280, 720, False), 'desk')
+    page.evaluate("document.querySelector('.reset-layout').click()")
+    assert page.evaluate("localStorage.getItem('amr.tools')") == ''
+
+
+def test_every_tool_stands_large_beside_the_scene_and_over_the_plots(desk, request):
+    faults = []
+    for number, tool in enumerate(tabs_of(desk)):
+        for place in (
+            (BESIDE, BELOW) if every_combination(request) else [(BESIDE, BELOW)[number % 2]]
+        ):
+            show(desk, tool)
+            press(desk, tool, place)
+            desk.evaluate(DRAWN)
+            panel, view = box(desk, f'#panel-{tool}'), box(desk, '.view')
+            assert view['width'] >= 240 and view['height'] >= 200, tool  # the robot stays in sight
+            if place == BESIDE:
+                assert panel['left'] >= view['right'] and panel['height'] == view['height'], tool
+            else:
+                assert panel['top'] >= view['bottom'] and panel['height'] > 0.45 * 720, tool
+            assert panel['width'] >= 400, tool
+            faults += [f'{tool}, {place}: {each}' for each in desk.evaluate('auditPage.faults()')]
+            press(desk, tool, BACK)
+    assert faults == []
+
+
+def test_tools_beside_one_another_are_all_told_what_comes(desk):
+    show(desk, 'frames')
+    show(desk, 'health')
+    press(desk, 'health', BESIDE)
+    show(desk, 'log')
+    press(desk, 'log', BELOW)
+    show(desk, 'topics')
+    seen = "[...document.querySelectorAll('.panel:not([hidden])')].map(({ id }) => id).sort()"
+    assert desk.evaluate(seen) == ['panel-health', 'panel-log', 'panel-topics']
+    desk.wait_until("document.querySelector('#panel-log .words')")
+    desk.wait_until("document.querySelector('#panel-topics .topic')")
+    desk.wait_until("document.querySelector('#panel-health .doctor > .unit')")
+    # The tab of one that is large leads to it; what is in the column stays.
+    desk.evaluate("document.getElementById('tab-log').click()")
+    assert desk.evaluate('document.activeElement.id') == 'panel-log'
+    assert desk.evaluate(seen) == ['panel-health', 'panel-log', 'panel-topics']
+    # The plots are a tab while something stands in their place.
+    desk.evaluate("document.getElementById('tab-plots').click()")
+    assert desk.evaluate("document.querySelector('#panel-plots .charts').checkVisibility()")
+    press(desk, 'log', BACK)
+    assert desk.evaluate("document.querySelector('.dock .charts').checkVisibility()")
+    assert 'plots' not in tabs_of(desk)
+
+
+def test_a_layout_comes_back_by_itself_and_by_its_link(browser, robots):
+    first = browser.open(robots[1], webgl=False)
+    first.look_like(1280, 720)
+    first.wait_until("window.amr?.now.link === 'open'")
+    try:
+        show_and_press = "document.getElementById('tab-graph').click();" + (
+            f'document.querySelector(\'#panel-graph [title="{BESIDE}"]\').click();'
+            "document.querySelector('.fold-drive').click();"
+            "document.querySelector('.of-column').focus();0"
+        )
+        first.evaluate(show_and_press)
+        before = box(first, '.driving')['width']
+        first.key_down('ArrowLeft')
+        first.key_up('ArrowLeft')
+        wide = box(first, '.driving')['width']
+        assert wide == pytest.approx(before + 0.03 * 1280, abs=1)
+        first.evaluate(
+            "[...document.querySelectorAll('.menu-items button')]"
+            ".find((each) => each.textContent === 'Copy link').click()"
+        )
+        first.wait_until("location.hash.includes('tools=')")
+        link = first.evaluate('location.href')
+        for address, keep in ((robots[1], True), (link, False)):
+            if not keep:
+                first.evaluate('localStorage.clear()')
+            first.go('about:blank')
+            first.go(address)
+            first.wait_until("window.amr?.now.link === 'open'")
+            assert (
+                first.evaluate("document.getElementById('panel-graph').dataset.place") == 'beside'
+            )
+            assert first.evaluate("document.querySelector('.drive').matches('.small')")
+            assert box(first, '.driving')['width'] == pytest.approx(wide, abs=1)
+            assert not first.evaluate("document.querySelector('.readout').checkVisibility()")
+            assert first.evaluate("document.querySelector('.stop').checkVisibility()")
+        first.evaluate("document.querySelector('.reset-layout').click()")
+        assert box(first, '.driving')['width'] == pytest.approx(before, abs=1)
+        assert first.evaluate("document.getElementById('panel-graph').dataset.place") == 'column'
+        assert first.evaluate('location.hash') == ''
+        assert first.errors == []
+    finally:
+        first.evaluate('localStorage.clear()')
+        first.close()
+
+
+@pytest.mark.parametrize('theme', THEMES)
+def test_axe_finds_no_violation_with_two_tools_large(desk, theme):
+    desk.evaluate(f'window.axe || (() => {{ {gzip.decompress(AXE.read_bytes()).decode()} }})();0')
+    be(desk, (1280, 720, False), 'desk', dark=theme == 'dark')
+    desk.evaluate("document.querySelector('.fold-drive').click()")
+    show(desk, 'graph')
+    press(desk, 'graph', BESIDE)
+    show(desk, 'log')
+    press(desk, 'log', BELOW)
+    show(desk, 'health')
+    assert violations(desk) == []
+    assert desk.evaluate('auditPage.faults()') == []

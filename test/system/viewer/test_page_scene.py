@@ -288,7 +288,8 @@ def test_plots_are_zoomed_under_one_cursor_shared_and_resized(driven):
     driven.wait_until(f"document.querySelector('.chart-plot canvas').clientHeight > {before}")
     driven.click('.plots .menu summary')
     press(driven, 'Copy link')
-    driven.wait_until("location.hash === '#plots=linear;angular;wheels;factor'")
+    driven.wait_until("location.hash.startsWith('#plots=linear;angular;wheels;factor&tab=')")
+    driven.wait_until(r"/&dock=0\.\d+$/.test(location.hash)")
     driven.evaluate("document.querySelector('.splitter').dispatchEvent(new Event('dblclick'))")
 
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Where one drives: the stick, the limits, who drives, how fast it goes, and the big stop. */
 import type { App, Panel } from '../app';
-import { h, setText } from '../dom';
+import { button, h, icon, setText } from '../dom';
 import { fixed } from '../format';
 import { ageText } from '../freshness';
 import { robotOf, SOURCES, velocityOf, type Source } from '../readings';
@@ -33,7 +33,14 @@ export class DrivePanel implements Panel {
   private readonly rows = new Map<Source, { row: HTMLElement; age: HTMLElement }>();
   private readonly cells = new Map<Source, Record<keyof Velocity, HTMLElement>>();
 
-  constructor(private readonly app: App) {
+  private readonly fold: HTMLButtonElement;
+
+  constructor(
+    private readonly app: App,
+    onSmall: (small: boolean) => void = () => {},
+  ) {
+    this.fold = button('', () => onSmall(!this.element.classList.contains('small')), { kind: 'quiet' });
+    this.fold.classList.add('fold-drive');
     this.joystick = new Joystick(app.pilot);
     app.pilot.limits = {
       linear: remembered('linear'),
@@ -48,7 +55,7 @@ export class DrivePanel implements Panel {
     this.element = h(
       'section',
       { class: 'drive', 'aria-label': 'Drive' },
-      h('header', { class: 'drive-head' }, h('h2', {}, 'Drive'), this.who),
+      h('header', { class: 'drive-head' }, h('h2', {}, 'Drive'), this.who, this.fold),
       this.joystick.element,
       this.readout(),
       this.sideways,
@@ -56,6 +63,7 @@ export class DrivePanel implements Panel {
       stopElement(app),
       h('div', { class: 'drive-notes' }, keysHint(), this.pad, this.topic),
     );
+    this.setSmall(false);
     app.store.watch(
       ['graph', 'robot', 'driver', 'commanders', 'stops', 'silence', 'simulation', 'link', 'hello'],
       () => this.showWho(),
@@ -96,6 +104,14 @@ export class DrivePanel implements Panel {
         row.title = age === null ? '' : `No ${WORDS[source].toLowerCase()} for ${text}`;
       }
     }
+  }
+
+  /** Stick and STOP alone, or all. */
+  setSmall(small: boolean): void {
+    this.element.classList.toggle('small', small);
+    this.fold.title = small ? 'All of driving' : 'Stick and STOP alone';
+    this.fold.setAttribute('aria-label', this.fold.title);
+    this.fold.replaceChildren(icon(small ? 'down' : 'up'));
   }
 
   /** Name the gamepad that can drive. */

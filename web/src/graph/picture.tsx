@@ -4,7 +4,7 @@
 // Keys move it, and there is no element for a drawing whose parts are chosen.
 /* oxlint-disable jsx-a11y/no-noninteractive-element-interactions, jsx-a11y/prefer-tag-over-role */
 import { useSignal } from '@preact/signals';
-import { useMemo, useRef } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import { Button } from '../ui';
 import { fitted, type Box, type Placed } from './layered';
 
@@ -41,7 +41,9 @@ const PADDING = 10;
 const MARGIN = 8;
 const ZOOM = 1.25;
 const STEP = 0.15; // of the width, by an arrow key
-const SHAPE = 0.9; // height of the frame by its width
+const SHAPE = 0.9; // height of the frame by its width, in the column
+const LARGEST = 1.5; // of the usual letters
+const FOOT = 30; // px at the lower edge of the frame, for its buttons
 const DOT = 3; // px that a pointer may move in a click
 
 export function Picture({ label, boxes, edges, chosen = null, onChoose }: PictureProps) {
@@ -54,12 +56,15 @@ export function Picture({ label, boxes, edges, chosen = null, onChoose }: Pictur
     })),
     edges: edges.map(({ from, to }) => [from, to]),
   });
-  const drawing = useMemo(() => draw(shape), [shape]);
+  const frame = useRef<HTMLDivElement>(null);
+  const room = useRoom(frame);
+  const high = room.height / room.width;
+  const drawing = useMemo(() => draw(shape, high), [shape, high]);
   const places = new Map(drawing.boxes.map((box) => [box.id, box]));
-  const width = Math.max(drawing.width, drawing.height / SHAPE, 1) + 2 * MARGIN;
+  const width = Math.max(drawing.width + 2 * MARGIN, (drawing.height + 2 * MARGIN) / high, room.width / LARGEST);
   const whole = {
     x: (drawing.width - width) / 2,
-    y: (drawing.height - SHAPE * width) / 2,
+    y: (drawing.height - high * width) / 2,
     width,
   };
   const moved = useSignal<Cut | null>(null);
@@ -67,7 +72,7 @@ export function Picture({ label, boxes, edges, chosen = null, onChoose }: Pictur
   const zoom = (by: number): void => {
     const size = Math.min(Math.max(cut.width / by, 60), 4 * whole.width);
     const lost = cut.width - size;
-    moved.value = { x: cut.x + lost / 2, y: cut.y + (SHAPE * lost) / 2, width: size };
+    moved.value = { x: cut.x + lost / 2, y: cut.y + (high * lost) / 2, width: size };
   };
   const move = (x: number, y: number): void => {
     moved.value = { ...cut, x: cut.x + x * cut.width, y: cut.y + y * cut.width };
@@ -85,6 +90,7 @@ export function Picture({ label, boxes, edges, chosen = null, onChoose }: Pictur
   const held = useRef<{ x: number; y: number; cut: Cut; far: boolean } | null>(null);
   return (
     <div
+      ref={frame}
       class="graph"
       role="group"
       tabIndex={0}
@@ -99,7 +105,7 @@ export function Picture({ label, boxes, edges, chosen = null, onChoose }: Pictur
       }}
     >
       <svg
-        viewBox={`${cut.x} ${cut.y} ${cut.width} ${SHAPE * cut.width}`}
+        viewBox={`${cut.x} ${cut.y} ${cut.width} ${high * cut.width}`}
         role="img"
         aria-label={`${label}: ${boxes.map(({ lines }) => lines[0]).join(', ')}`}
         onWheel={(event) => {
@@ -199,9 +205,29 @@ function curveDown(start: Placed, end: Placed): string {
   return `M${x0} ${y0}C${x0} ${y0 + bend} ${x1} ${y1 - bend} ${x1} ${y1}${head}`;
 }
 
-function draw(shape: string): ReturnType<typeof fitted> {
+/** The size of the frame, which follows that of its panel. */
+function useRoom(frame: { current: HTMLElement | null }): { width: number; height: number } {
+  const room = useSignal({ width: 1, height: SHAPE });
+  useLayoutEffect(() => {
+    const measure = (): void => {
+      const { clientWidth: width = 0, clientHeight: height = 0 } = frame.current ?? {};
+      if (width > 0 && height > FOOT) {
+        room.value = { width, height: height - FOOT };
+      }
+    };
+    const sizes = new ResizeObserver(measure);
+    if (frame.current !== null) {
+      sizes.observe(frame.current);
+    }
+    measure();
+    return () => sizes.disconnect();
+  }, [frame, room]);
+  return room.value;
+}
+
+function draw(shape: string, high: number): ReturnType<typeof fitted> {
   const { boxes, edges } = JSON.parse(shape) as { boxes: Box[]; edges: [string, string][] };
-  return fitted(boxes, edges, SHAPE);
+  return fitted(boxes, edges, high);
 }
 
 function longest(lines: readonly string[]): number {

@@ -70,7 +70,7 @@ function Parameters({ app }: PanelProps) {
       {fault.value !== '' && <p class="refusal">{fault.value}</p>}
       {node.value !== '' && found.value === null && fault.value === '' && <Empty>Asking {node.value} …</Empty>}
       {found.value?.length === 0 && <Empty>It has no parameters.</Empty>}
-      <ul class="rows">
+      <ul class="rows parameters">
         {shown.map((info) => (
           <Row key={`${node.value} ${info.name}`} app={app} node={node.value} info={info} all={found} />
         ))}

@@ -22,7 +22,6 @@ const MOST_CHARTS = 12;
 const MOST_FIELDS = 12; // a chart
 const DEFAULT = KINDS.join(';');
 const FREE: Bounds = [null, null];
-const FRAGMENT = 'plots=';
 
 /** "linear;wheels,/odom:twist.twist.linear.x@-1..1": charts, their lines, their bounds. */
 export function encode(charts: readonly ChartSpec[]): string {
@@ -55,15 +54,14 @@ export class PlotLayout {
   private readonly cell;
 
   /**
-   * `kept`: the layout of the last visit; `keep`: called with each new one; `link`: the fragment of
-   * the page's address, which comes first, and is kept when something is changed.
+   * `kept`: the layout of the last visit; `keep`: called with each new one; `shared`: that of the
+   * page's address, which comes first, and is kept when something is changed.
    */
   constructor(
     kept: string | null,
     private readonly keep: (text: string) => void,
-    link = '',
+    shared: string | null = null,
   ) {
-    const [, shared] = link.split(FRAGMENT);
     const wanted = decode(shared ?? '');
     this.cell = signal(wanted.length > 0 ? wanted : decode(kept ?? DEFAULT));
   }
@@ -72,9 +70,9 @@ export class PlotLayout {
     return this.cell.value;
   }
 
-  /** The fragment of an address that shows these charts. */
-  get link(): string {
-    return `#${FRAGMENT}${encode(this.charts)}`;
+  /** These charts, as in an address. */
+  get text(): string {
+    return encode(this.charts);
   }
 
   isPlotted(field: Field): boolean {

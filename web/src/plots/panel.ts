@@ -3,6 +3,7 @@
 /** The plots: charts of the robot and of any fields, over one time, with one cursor. */
 import { effect, signal, untracked } from '@preact/signals';
 import { render } from 'preact';
+import { forgetLink, linkPart, shareLink } from '../address';
 import type { App, Panel } from '../app';
 import { h, setText } from '../dom';
 import type { Part } from '../protocol';
@@ -16,7 +17,7 @@ import { PlotLayout, type ChartSpec } from './layout';
 import { chartLines, type Line, type Source } from './lines';
 import { Offers } from './offers';
 import type { Recorder } from './recorder';
-import { forgetLink, saveCsv, savePng, shareLink } from './saving';
+import { saveCsv, savePng } from './saving';
 import { SPAN, type Series } from './series';
 import { TimeView, type Extent } from './time_view';
 import { toolsOf, WINDOWS } from './tools';
@@ -35,7 +36,7 @@ export class PlotsPanel implements Panel {
       remember('plots', text);
       forgetLink();
     },
-    window.location.hash,
+    linkPart('plots', () => this.layout.text),
   );
   private readonly place = h('div', { class: 'charts' });
   private readonly live = h('div', { class: 'unseen', role: 'status', 'aria-live': 'polite' });
@@ -80,7 +81,7 @@ export class PlotsPanel implements Panel {
         this.draw(true); // what has come since the last drawing, too
         void savePng(this.shown, store);
       },
-      link: () => shareLink(this.layout.link, store),
+      link: () => shareLink(store),
     };
     const { heldAt, target, layout } = this;
     const Tools = toolsOf({

@@ -33,25 +33,3 @@ export async function savePng(charts: readonly Chart[], store: Store): Promise<v
     saveFile('plots.png', image);
   }
 }
-
-/** Give the address of these plots, without a token: who gets it needs one of their own. */
-export function shareLink(link: string, store: Store): void {
-  const { origin, pathname, search } = window.location;
-  window.history.replaceState(null, '', `${pathname}${search}${link}`);
-  const done = (): void => store.note('info', 'The link to these plots is in the clipboard.');
-  const failed = (): void =>
-    store.note('info', 'The address of this page is now the link to these plots: copy it.');
-  // Without https, a page of another host has no clipboard.
-  const copied = window.isSecureContext
-    ? navigator.clipboard.writeText(`${origin}${pathname}${link}`)
-    : Promise.reject(new Error('no clipboard'));
-  copied.then(done, failed);
-}
-
-/** The layout is another one than that of the link. */
-export function forgetLink(): void {
-  const { pathname, search, hash } = window.location;
-  if (hash.startsWith('#plots=')) {
-    window.history.replaceState(null, '', `${pathname}${search}`);
-  }
-}
