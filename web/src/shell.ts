@@ -44,7 +44,8 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
     }),
   };
   const close = button('', () => setSheet(false), { icon: 'close', title: 'Close the panels' });
-  const head = h('div', { class: 'sheet-head' }, close);
+  const grow = button('', () => setLarge(!body.classList.contains('large')), { icon: 'range' });
+  const head = h('div', { class: 'sheet-head' }, grow, close);
   const title = h('h2', { class: 'unseen' }, 'Panels');
   const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, title, head, tabs.element);
   const slot: Panel = { id: 'plots', title: 'Plots', element: h('div', { class: 'plots-slot' }) };
@@ -68,11 +69,21 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
     remember('folded', folded ? 'yes' : 'no');
   }
 
+  /** Off a desk the panels take all of the room but that of the robot in small, and of STOP. */
+  function setLarge(large: boolean): void {
+    body.classList.toggle('large', large);
+    grow.setAttribute('aria-pressed', String(large));
+    grow.title = 'Large panels';
+    grow.setAttribute('aria-label', grow.title);
+    remember('large', large ? 'yes' : 'no');
+  }
+
   function setSheet(open: boolean): void {
     const wasFocused = sheet.contains(document.activeElement);
     body.dataset.sheet = open ? 'open' : 'closed';
     sheet.dataset.sheet = open ? 'open' : 'closed';
     sheet.inert = !open;
+    tabs.arrange(); // the chosen tab comes into sight
     const opener = document.querySelector<HTMLElement>('.open-panels');
     opener?.setAttribute('aria-expanded', String(open));
     if (!open && wasFocused) {
@@ -138,6 +149,7 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
   tabs.onStand = standPlots;
   window.addEventListener('resize', settle);
   setFolded(recall('folded') === 'yes');
+  setLarge(recall('large') === 'yes');
   settle();
   return {
     reset: () => {

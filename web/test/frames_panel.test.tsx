@@ -97,9 +97,11 @@ test('the fixed frame is that of the scene: world, where the truth is known', as
   await drawn();
   const names = ['automatic: odom', 'odom', 'base', 'wheel', 'elsewhere', 'far'];
   assert.deepEqual(texts(panel, 'option'), names);
+  assert.doesNotMatch(panel.element.textContent, /world is/);
   panel.pulse?.(state([5, 5, 0, 0, 0, 0, 1]));
   await drawn();
   assert.deepEqual(texts(panel, 'option').slice(0, 2), ['automatic: world', 'world']);
+  assert.match(find(panel, '.section .fine').textContent, /^world is the simulator’s/, 'it is in no tree');
   assert.deepEqual(where(panel)[1], ['world', '5.500  5.000  0.000', '0.0°  0.0°  0.0°']);
   const choice = find(panel, '#fixed-frame') as HTMLSelectElement;
   choice.value = 'odom';

@@ -30,6 +30,16 @@ test('diagnostics are there, the worst first, and those that are not well are co
   assert.deepEqual(healthToLookAt(app.store), { count: 2, tone: 'error' });
 });
 
+test('what says the same is said once', async () => {
+  const app = connected();
+  const panel = healthPanel(app);
+  const late = (name: string): DiagnosticItem => ({ level: 'warn', name, message: 'late' });
+  say(app, WELL, late('controllers'), { level: 'warn', name: 'wheel', message: '' }, late('hardware'), { ...WELL, name: 'arm' });
+  await drawn();
+  assert.deepEqual(texts(panel, '.unit-name'), ['controllers, hardware', 'wheel', 'battery', 'arm']);
+  assert.equal(healthToLookAt(app.store).count, 3);
+});
+
 test('errors that the doctor finds are counted, warnings are not', () => {
   const app = connected();
   const [what, why, fix, rule] = ['seen', 'bad', 'mend', 'rule'];

@@ -8,7 +8,7 @@ const WIDTH = 800;
 const HEIGHT = 600;
 
 function anchor(key: string, x: number, y: number): Anchor {
-  return { key, x, y, width: 80, height: 18 };
+  return { key, x, y, width: 80, height: 18, isAbove: key === 'robot' };
 }
 
 function place(anchors: Anchor[], habits = new Map<string, number>()): PlacedLabel[] {
@@ -70,4 +70,12 @@ test('the name of a robot stands right above it, whatever is about', () => {
   const [label] = place([robot, anchor('a', 400, 200), anchor('b', 420, 260)]);
   assert.ok(Math.abs(label!.left + 40 - 400) < 1e-6);
   assert.ok(label!.top + 18 < 300 && label!.top + 18 > 280);
+});
+
+test('what else stands there is left free', () => {
+  const tools = { left: 0, top: 0, right: WIDTH, bottom: 40 };
+  const [free] = place([anchor('robot', 400, 50)]);
+  assert.ok(free!.top < 40);
+  const [label] = placeLabels([anchor('robot', 400, 50)], WIDTH, HEIGHT, new Map(), [tools]);
+  assert.ok(label!.top > 40);
 });

@@ -53,6 +53,23 @@ test('another world is chosen, and waited for', async () => {
   assert.equal(choice.disabled, false);
 });
 
+test('of a simulator that is silent nothing is said to play, and nothing is asked', async () => {
+  const { app, panel } = simulating();
+  const state = (): string | undefined => texts(panel, '.facts dd')[1];
+  const controls = (): boolean[] =>
+    [...panel.element.querySelectorAll('fieldset')].map(({ disabled }) => disabled);
+  assert.equal(state(), 'playing');
+  assert.deepEqual(controls(), [false]);
+  app.store.setSilence('No data for 6 s');
+  await drawn();
+  assert.equal(state(), 'No data for 6 s');
+  assert.equal(texts(panel, '.facts dd')[2], '–');
+  assert.deepEqual(controls(), [true]);
+  app.store.setSilence('');
+  await drawn();
+  assert.equal(state(), 'playing');
+});
+
 test('without a simulator the panel says so', () => {
   const panel = simulationPanel(connectedApp(), () => null);
   assert.deepEqual(texts(panel, '.empty'), ['There is no simulator in the graph.']);

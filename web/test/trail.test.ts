@@ -33,7 +33,7 @@ test('its memory is bounded, whatever comes', () => {
     assert.ok(trail.count <= 32);
   }
   assert.equal(trail.points, buffer);
-  assert.equal(buffer.length, 3 * 32);
+  assert.equal(buffer.length, 3 * 33); // one is where it is now
 });
 
 test('it keeps its beginning, its order and, finely, its end', () => {
@@ -92,4 +92,45 @@ test('cleared, it begins anew', () => {
   trail.add(5, 6, 7);
   assert.deepEqual([...trail.points.subarray(0, 3)], [5, 6, 7]);
   assert.equal(trail.firstChanged, 0);
+});
+
+/** The greatest distance of a trail's points from a circle about 0, and between two of them. */
+function worst(trail: Trail, radius: number): { off: number; gap: number } {
+  const at = (i: number): number[] => [...trail.points.subarray(3 * i, 3 * i + 2)];
+  const all = Array.from({ length: trail.count - 1 }, (_, i) => at(i)); // to the last but one it is bent
+  const gaps = all.slice(2, -1).map(([x, y], i) => Math.hypot(x! - all[i + 1]![0]!, y! - all[i + 1]![1]!));
+  return {
+    off: Math.max(...all.slice(1).map(([x, y]) => Math.abs(Math.hypot(x!, y!) - radius))),
+    gap: Math.max(...gaps),
+  };
+}
+
+test('where few places come, as on a busy machine, the way has no corners', () => {
+  const trail = new Trail({ spacing: 0.02 });
+  for (let i = 0; i < 60; i++) {
+    trail.add(Math.cos(0.25 * i), Math.sin(0.25 * i), 0); // 0.25 m apart: a corner would lie 8 mm inside
+  }
+  const { off, gap } = worst(trail, 1);
+  assert.ok(off < 0.002, `${off} m beside the circle`);
+  assert.ok(gap < 0.03, `${gap} m between two points`);
+});
+
+test('it ends where the robot is, however little that has moved since a point was kept', () => {
+  const trail = new Trail({ spacing: 0.125 });
+  trail.add(0, 0, 0);
+  assert.equal(trail.drawn, 1);
+  assert.equal(trail.add(0.1, 0, 0), true);
+  assert.equal(trail.add(0.1001, 0, 0), false, 'too little to be seen');
+  assert.deepEqual([trail.count, trail.drawn, ...trail.points.subarray(3, 6)], [1, 2, ...new Float32Array([0.1, 0, 0])]);
+  trail.add(0.125, 0, 0);
+  assert.deepEqual([trail.count, trail.drawn], [2, 2]);
+});
+
+test('one that goes back leaves no bulge where it turned', () => {
+  const trail = new Trail({ spacing: 0.02 });
+  for (const x of [0, 0.2, 0.4, 0.6, 0.4, 0.2, 0]) {
+    trail.add(x, 0.001 * x, 0);
+  }
+  const far = Array.from({ length: trail.count }, (_, i) => Math.abs(trail.points[3 * i + 1]!));
+  assert.ok(Math.max(...far) < 0.001, String(Math.max(...far)));
 });

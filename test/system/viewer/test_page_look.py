@@ -417,3 +417,19 @@ def test_axe_finds_no_violation_with_two_tools_large(desk, theme):
     show(desk, 'health')
     assert violations(desk) == []
     assert desk.evaluate('auditPage.faults()') == []
+
+
+@pytest.mark.parametrize('form', ['tall', 'wide'])
+def test_a_phone_has_one_tool_at_a_time_large(page, form):
+    be(page, FORMS[form], form)
+    show(page, 'graph')
+    high = box(page, '#panel-graph')
+    page.evaluate("document.querySelector('.sheet-head [aria-pressed=false]').click()")
+    page.evaluate(DRAWN)
+    try:
+        large, view = box(page, '#panel-graph'), box(page, '.view')
+        assert large['width'] * large['height'] > 1.3 * high['width'] * high['height']
+        assert view['width'] >= 148 and view['height'] >= 96
+        assert page.evaluate('auditPage.faults()') == []
+    finally:
+        page.evaluate("document.querySelector('.sheet-head [aria-pressed=true]').click()")

@@ -289,7 +289,7 @@ def test_plots_are_zoomed_under_one_cursor_shared_and_resized(driven):
     driven.click('.plots .menu summary')
     press(driven, 'Copy link')
     driven.wait_until("location.hash.startsWith('#plots=linear;angular;wheels;factor&tab=')")
-    driven.wait_until(r"/&dock=0\.\d+$/.test(location.hash)")
+    driven.wait_until(r'/&dock=0\.\d+$/.test(location.hash)')
     driven.evaluate("document.querySelector('.splitter').dispatchEvent(new Event('dblclick'))")
 
 

@@ -5,6 +5,7 @@ import { useMemo } from 'preact/hooks';
 import type { App, Panel } from '../app';
 import { degrees, fixed, UNKNOWN } from '../format';
 import type { FrameInfo, Layout } from '../protocol';
+import { WORLD } from '../scene/placement';
 import type { Places, PoseNumbers } from '../scene/places';
 import type { Store } from '../store';
 import { Facts, Section } from '../ui';
@@ -35,6 +36,7 @@ function Frames(props: FramesProps) {
         <FixedFrame {...props} />
       </label>
       <Section title="Tree">
+        <World {...props} />
         <Tree store={store} />
       </Section>
       <Section title="Chosen frame">
@@ -68,6 +70,19 @@ function FixedFrame({ app: { store }, state, places }: FramesProps) {
       <option value="">{`automatic: ${places.automatic}`}</option>
       {options}
     </select>
+  );
+}
+
+/** Where `world` is, where it stands still and TF knows nothing of it. */
+function World({ app: { store }, state, places }: FramesProps) {
+  void state.value; // what follows is of the latest one
+  const roots = rootsOf(store.layout?.frames ?? []);
+  const isInTf = roots.includes(WORLD) || places.parentOf(WORLD) !== null;
+  return isInTf || !places.frames.includes(WORLD) ? null : (
+    <p class="fine">
+      <b>world</b> is the simulator’s, by the true poses, and no frame of TF. In it, each tree lies where truth and
+      odometry of its robot agreed first: what moves them apart is drift.
+    </p>
   );
 }
 

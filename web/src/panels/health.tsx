@@ -112,12 +112,23 @@ function itemsOf(store: Store): readonly Item[] {
   });
 }
 
+/** One item for those that say the same. */
+function joined(items: readonly Item[]): Item[] {
+  const found = new Map<string, Item>();
+  for (const item of items) {
+    const key = item.level === 'ok' || item.message === '' ? item.name : `${item.level} ${item.message}`;
+    const first = found.get(key);
+    found.set(key, first === undefined ? item : { ...first, name: `${first.name}, ${item.name}` });
+  }
+  return [...found.values()];
+}
+
 /**
  * The worst first. The rows stay the same elements while their statuses come anew, so that a text
  * that is being selected stays so.
  */
 function Diagnostics({ store }: { store: Store }) {
-  const items = [...itemsOf(store)].sort(
+  const items = joined(itemsOf(store)).sort(
     (one, other) => ORDER.indexOf(one.level) - ORDER.indexOf(other.level),
   );
   return (

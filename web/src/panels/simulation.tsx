@@ -28,17 +28,18 @@ function SimulationPanel({ app, state, offer }: PanelProps & { offer: Offer }) {
     return <Empty>There is no simulator in the graph.</Empty>;
   }
   const { id, entities, world, worlds } = simulator;
+  const isSilent = app.store.silence !== ''; // nobody is there who could do it
   return (
-    <>
+    <fieldset class="bare" disabled={isSilent}>
       <Section title="Clock">
         <dl class="facts">
           <div>
             <dt>Time</dt>
             <Time state={state} />
           </div>
-          <Factor simulation={simulation} />
+          <Factor simulation={simulation} silence={app.store.silence} />
         </dl>
-        {isSlow(simulation) && <WhySlow app={app} simulator={id} />}
+        {isSlow(simulation) && !isSilent && <WhySlow app={app} simulator={id} />}
         <div class="form">
           {worlds.length > 1 && <WorldChoice app={app} simulator={id} world={world} worlds={worlds} />}
           <FactorChoice app={app} simulator={id} asked={simulation?.factor ?? null} />
@@ -55,7 +56,7 @@ function SimulationPanel({ app, state, offer }: PanelProps & { offer: Offer }) {
       <Section title={offer.again === null ? 'Another robot like this one' : 'The robot again'}>
         <SpawnForm offer={offer} state={state} />
       </Section>
-    </>
+    </fieldset>
   );
 }
 
@@ -68,7 +69,7 @@ function Time({ state }: { state: ReadonlySignal<State | null> }) {
   return <dd>{state.value === null ? UNKNOWN : clock(state.value.time)}</dd>;
 }
 
-function Factor({ simulation }: { simulation: SimulationStatus | null }) {
+function Factor({ simulation, silence }: { simulation: SimulationStatus | null; silence: string }) {
   const { real_factor: real, state } = simulation ?? NOTHING;
   const plays = state === 'playing';
   const slow = isSlow(simulation);
@@ -76,11 +77,11 @@ function Factor({ simulation }: { simulation: SimulationStatus | null }) {
     <>
       <div>
         <dt>State</dt>
-        <dd>{state ?? UNKNOWN}</dd>
+        <dd data-tone={silence === '' ? undefined : 'warning'}>{silence === '' ? (state ?? UNKNOWN) : silence}</dd>
       </div>
       <div>
         <dt>Real-time factor</dt>
-        <dd data-tone={slow ? 'warning' : 'calm'}>{plays ? factor(real) : UNKNOWN}</dd>
+        <dd data-tone={slow && silence === '' ? 'warning' : 'calm'}>{plays && silence === '' ? factor(real) : UNKNOWN}</dd>
       </div>
     </>
   );

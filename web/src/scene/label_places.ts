@@ -17,7 +17,7 @@ export interface PlacedLabel {
   top: number;
 }
 
-interface Box {
+export interface Box {
   left: number;
   top: number;
   right: number;
@@ -37,11 +37,13 @@ const UP = { x: 0, y: -1 };
  * A label goes to the side of its point that is away from the points around, so that a cluster's
  * labels stand about it like rays. `habits` keeps which place each took, so that it stays there
  * while that is free: it is read and written. A label that finds no free place is left out.
+ * `blocked`: what else stands there.
  */
 export function placeLabels(
   anchors: readonly Anchor[], width: number, height: number, habits: Map<string, number>,
+  blocked: readonly Box[] = [],
 ): PlacedLabel[] {
-  const taken: Box[] = [];
+  const taken: Box[] = [...blocked];
   const placed: PlacedLabel[] = [];
   for (const anchor of anchors) {
     const outward = anchor.isAbove === true ? UP : outwardOf(anchor, anchors);

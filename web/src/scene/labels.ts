@@ -3,7 +3,7 @@
 /** Names in the scene, written over it in a canvas of their own: sharp, never in the way. */
 import { Vector3 } from 'three';
 import type { Camera } from 'three';
-import { placeLabels, type Anchor } from './label_places';
+import { placeLabels, type Anchor, type Box } from './label_places';
 import type { Palette } from './theme';
 
 export interface Label {
@@ -64,7 +64,7 @@ export class Labels {
     const anchors = this.anchorsOf(labels, camera, width, height);
     const points = new Map(anchors.map((anchor) => [anchor.key, anchor]));
     const byKey = new Map(labels.map((label) => [label.key, label]));
-    for (const { key, left, top } of placeLabels(anchors, width, height, this.habits)) {
+    for (const { key, left, top } of placeLabels(anchors, width, height, this.habits, this.blocked)) {
       const anchor = points.get(key) as Anchor;
       const { text, isStrong, colour } = byKey.get(key) as Label;
       pen.fillStyle = colour ?? palette.labelBack;
@@ -83,6 +83,16 @@ export class Labels {
       pen.fillText(text, left + PADDING, top + HEIGHT / 2 + 0.5);
     }
     this.isBlank = labels.length === 0;
+  }
+
+  /** Where the buttons over the picture are. */
+  private get blocked(): Box[] {
+    const tools = this.below.parentElement?.querySelector<HTMLElement>('.view-tools') ?? null;
+    if (tools === null) {
+      return [];
+    }
+    const { offsetLeft: left, offsetTop: top, offsetWidth, offsetHeight } = tools;
+    return [{ left, top, right: left + offsetWidth, bottom: top + offsetHeight }];
   }
 
   private anchorsOf(

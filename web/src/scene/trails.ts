@@ -10,7 +10,7 @@ import { readPose } from './tree';
 
 const WIDTH = 3; // CSS pixels
 const SPARSE = { coarse: 1024, fine: 1024, spacing: 0.04 }; // where the processor draws
-const DASH = 0.4; // m, from one dash of the odometry to the next
+const DASH = 0.16; // m, from one dash of the odometry to the next: less than a robot is long
 const LIFT = 0.004; // m, so that a trail on the ground is seen
 const JUMP = 0.5; // m at once, beyond what speed explains: it was put there
 const FASTEST = 10; // m/s
@@ -52,7 +52,7 @@ class TrailLine {
   }
 
   private draw(): void {
-    this.ribbon.draw(this.trail.count, this.trail.firstChanged);
+    this.ribbon.draw(this.trail.drawn, this.trail.firstChanged);
   }
 }
 
