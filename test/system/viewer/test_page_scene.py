@@ -37,7 +37,7 @@ MOVED = 'joint_wheel_front_left'
 SHOWN = 5
 """s of simulated time after which the page has had one state more; if slow, not many more."""
 PAUSE = "document.querySelector('.plot-tools .toggle')"
-MOST_TABS = 40
+MOST_TABS = 48
 """Presses of the key until the stop button is reached."""
 
 
