@@ -47,7 +47,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_297,
+    'code lines of helpers in test files': 27_298,
 }
 
 BASE = {
