@@ -9,7 +9,8 @@ or an array of another length, is an error that names the field. Two words are f
 publication: ``auto`` for a std_msgs/Header, ``now`` for a builtin_interfaces/Time.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 import sys
 from typing import Any
 
@@ -27,49 +28,108 @@ from amr_description.text import shorten
 Stamp = Callable[[Any], None]
 """Sets one time of a message to a given builtin_interfaces/Time."""
 
+
+@dataclass(frozen=True)
+class Words:
+    """Which of the two words are filled in at each publication."""
+
+    auto: bool = True
+    now: bool = True
+
+
+class FieldError(AmrError):
+    """A value does not fit its field."""
+
+    def __init__(self, reason: str, path: str) -> None:
+        super().__init__(f'Failed to populate field: {reason}{f" (field {path})" if path else ""}')
+        self.reason = reason
+
+
 _YAML_BOOLEANS = {'true': True, 'yes': True, 'on': True, 'false': False, 'no': False, 'off': False}
 
 
-def set_fields(message: Any, values: Any) -> list[Stamp]:
+def set_fields(message: Any, values: Any, words: Words = Words()) -> list[Stamp]:  # noqa: B008
     """
     Set the fields of a message; those not mentioned keep their defaults.
 
-    :param values: A mapping from field names, as YAML gives it.
+    :param values: A mapping from field names, as YAML gives it; a field may be a message, too.
+    :param words: Which words stand for the time of a publication.
     :returns: What is to be called with the time of each publication.
-    :raises AmrError: A value does not fit; the line names its field.
+    :raises FieldError: A value does not fit; the line names its field.
     """
     stamps: list[Stamp] = []
-    _fill(message, values, '', stamps)
+    _Filler(words, stamps).fill(message, values, '')
     return stamps
 
 
-def _fill(message: Any, values: Any, path: str, stamps: list[Stamp]) -> None:
-    if not isinstance(values, dict):
-        raise _misfit(
-            f"Value '{values}' is expected to be a dictionary but is a {type(values).__name__}",
-            path,
-        )
-    names = list(message.get_fields_and_field_types())
-    slots = dict(zip(names, message.SLOT_TYPES, strict=True))
-    for name, value in values.items():
-        if name not in slots:
-            unknown = f"'{type(message).__name__}' object has no attribute '{name}'"
-            raise _misfit(f'{unknown}; it has {", ".join(names)}', path)
-        _set(message, name, slots[name], value, f'{path}.{name}'.lstrip('.'), stamps)
+class _Filler:
+    """Sets fields; collects what is to be done at each publication."""
 
+    def __init__(self, words: Words, stamps: list[Stamp]) -> None:
+        self._words = words
+        self._stamps = stamps
 
-def _set(message: Any, name: str, slot: Any, value: Any, path: str, stamps: list[Stamp]) -> None:
-    field = getattr(message, name)
-    if _is(slot, 'std_msgs/msg/Header') and value == 'auto':
-        stamps.append(lambda time: setattr(field, 'stamp', time))
-    elif _is(slot, 'builtin_interfaces/msg/Time') and value == 'now':
-        stamps.append(lambda time: setattr(message, name, time))
-    elif isinstance(slot, NamespacedType):
-        _fill(field, value, path, stamps)
-    elif isinstance(slot, AbstractNestedType):
-        _assign(message, name, _array(field, slot, value, path, stamps), path)
-    else:
-        _assign(message, name, _scalar(slot, value, path), path)
+    def fill(self, message: Any, values: Any, path: str) -> None:
+        if not isinstance(values, Mapping):
+            raise _misfit(
+                f"Value '{values}' is expected to be a dictionary but is a "
+                f'{type(values).__name__}',
+                path,
+            )
+        names = list(message.get_fields_and_field_types())
+        slots = dict(zip(names, message.SLOT_TYPES, strict=True))
+        for name, value in values.items():
+            if name not in slots:
+                unknown = f"'{type(message).__name__}' object has no attribute '{name}'"
+                raise _misfit(f'{unknown}; it has {", ".join(names)}', path)
+            self._set(message, name, slots[name], value, f'{path}.{name}'.lstrip('.'))
+
+    def _set(self, message: Any, name: str, slot: Any, value: Any, path: str) -> None:
+        field = getattr(message, name)
+        if self._words.auto and _is(slot, 'std_msgs/msg/Header') and value == 'auto':
+            self._stamps.append(lambda time: setattr(field, 'stamp', time))
+        elif self._words.now and _is(slot, 'builtin_interfaces/msg/Time') and value == 'now':
+            self._stamps.append(lambda time: setattr(message, name, time))
+        elif isinstance(slot, NamespacedType):
+            if type(value) is type(field):
+                setattr(message, name, value)
+            else:
+                self.fill(field, value, path)
+        elif isinstance(slot, AbstractNestedType):
+            _assign(message, name, self._array(field, slot, value, path), path)
+        else:
+            _assign(message, name, _scalar(slot, value, path), path)
+
+    def _array(self, field: Any, slot: Any, value: Any, path: str) -> Any:
+        """Return a list, array.array or numpy array: what the field holds."""
+        if isinstance(value, bytes):  # !!binary
+            value = list(value)
+        if not isinstance(value, list):
+            raise _misfit(f"expected a list, found the {type(value).__name__} '{value}'", path)
+        elements = [
+            self._element(slot.value_type, element, f'{path}[{index}]')
+            for index, element in enumerate(value)
+        ]
+        try:
+            if of_numpy(field, 'ndarray'):
+                import numpy as np
+
+                return np.array(elements, dtype=field.dtype)
+            return (
+                type(field)(field.typecode, elements) if hasattr(field, 'typecode') else elements
+            )
+        except (OverflowError, TypeError, ValueError) as error:
+            raise _misfit(str(error), path) from error
+
+    def _element(self, slot: Any, value: Any, path: str) -> Any:
+        if not isinstance(slot, NamespacedType):
+            return _scalar(slot, value, path)
+        kind = message_type('/'.join(slot.namespaced_name()))
+        if type(value) is kind:
+            return value
+        element = kind()
+        self.fill(element, value, path)
+        return element
 
 
 def _assign(message: Any, name: str, value: Any, path: str) -> None:
@@ -81,34 +141,6 @@ def _assign(message: Any, name: str, value: Any, path: str) -> None:
         raise _misfit(str(error), path) from error
     finally:
         message._check_fields = False
-
-
-def _array(field: Any, slot: Any, value: Any, path: str, stamps: list[Stamp]) -> Any:
-    """Return a list, array.array or numpy array: what the field holds."""
-    if isinstance(value, bytes):  # !!binary
-        value = list(value)
-    if not isinstance(value, list):
-        raise _misfit(f"expected a list, found the {type(value).__name__} '{value}'", path)
-    elements = [
-        _element(slot.value_type, element, f'{path}[{index}]', stamps)
-        for index, element in enumerate(value)
-    ]
-    try:
-        if of_numpy(field, 'ndarray'):
-            import numpy as np
-
-            return np.array(elements, dtype=field.dtype)
-        return type(field)(field.typecode, elements) if hasattr(field, 'typecode') else elements
-    except (OverflowError, TypeError, ValueError) as error:
-        raise _misfit(str(error), path) from error
-
-
-def _element(slot: Any, value: Any, path: str, stamps: list[Stamp]) -> Any:
-    if not isinstance(slot, NamespacedType):
-        return _scalar(slot, value, path)
-    element = message_type('/'.join(slot.namespaced_name()))()
-    _fill(element, value, path, stamps)
-    return element
 
 
 def _scalar(slot: BasicType | AbstractGenericString, value: Any, path: str) -> Any:
@@ -151,9 +183,8 @@ def _is(slot: Any, name: str) -> bool:
     return isinstance(slot, NamespacedType) and '/'.join(slot.namespaced_name()) == name
 
 
-def _misfit(reason: str, path: str) -> AmrError:
-    where = f' (field {path})' if path else ''
-    return AmrError(f'Failed to populate field: {shorten(reason)}{where}')
+def _misfit(reason: str, path: str) -> FieldError:
+    return FieldError(shorten(reason), path)
 
 
 def of_numpy(value: Any, kind: str) -> bool:

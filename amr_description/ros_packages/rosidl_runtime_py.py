@@ -7,32 +7,45 @@ from collections.abc import Callable, Iterable, Mapping
 import importlib
 from pathlib import Path
 from typing import Any
+import warnings
 
 from ament_index_python import get_resource, get_resources, has_resource
 from ament_index_python.packages import get_package_prefix
-from rosidl_parser.definition import NamespacedType
+from rosidl_parser.definition import AbstractNestedType, NamespacedType
 
 from amr_description.ament_index import package_share
 from amr_description.errors import AmrError
-from amr_description.ros.message_fields import set_fields
+from amr_description.ros.message_fields import FieldError, set_fields, Words
 from amr_description.ros.message_text import Style, to_csv, to_plain, to_yaml
-from amr_description.ros.message_types import action_type, message_type, service_type
 
-get_message: Callable[[str], Any] = message_type
-"""Return the class of ``package/msg/Name``."""
-get_service: Callable[[str], Any] = service_type
-"""Return the class of ``package/srv/Name``."""
-get_action: Callable[[str], Any] = action_type
-"""Return the class of ``package/action/Name``."""
+
+def get_message(identifier: str) -> Any:
+    """Return the class of ``package/msg/Name``, or ``package/Name``; it raises as imports do."""
+    return _of_kind(get_message_namespaced_type(identifier), is_message, 'a message', identifier)
+
+
+def get_service(identifier: str) -> Any:
+    """As :func:`get_message`, of ``package/srv/Name``."""
+    return _of_kind(get_service_namespaced_type(identifier), is_service, 'a service', identifier)
+
+
+def get_action(identifier: str) -> Any:
+    """As :func:`get_message`, of ``package/action/Name``."""
+    return _of_kind(get_action_namespaced_type(identifier), is_action, 'an action', identifier)
+
+
+def _of_kind(
+    name: NamespacedType, is_wanted: Callable[[Any], bool], words: str, identifier: str
+) -> Any:
+    interface = import_message_from_namespaced_type(name)
+    if not is_wanted(interface):
+        raise ValueError(f"Expected the full name of {words}, got '{identifier}'")
+    return interface
 
 
 def get_interface(identifier: str) -> Any:
-    """Return the class of an interface of any kind. Raises ValueError: its name is no name."""
-    kinds = {'msg': get_message, 'srv': get_service, 'action': get_action}
-    kind = identifier.split('/')[1:2]
-    if not kind or kind[0] not in kinds:
-        raise ValueError(f"'{identifier}' is not written as package/msg/Name, srv or action")
-    return kinds[kind[0]](identifier)
+    """Return the class of an interface of any kind; it raises as imports do."""
+    return import_message_from_namespaced_type(get_namespaced_type(identifier))
 
 
 _RESOURCE = 'rosidl_interfaces'
@@ -119,8 +132,11 @@ def get_action_namespaced_type(identifier: str) -> NamespacedType:
     return _namespaced_type(identifier, 'action')
 
 
-def import_message_from_namespaced_type(message_type: NamespacedType) -> Any:
+def import_message_from_namespaced_type(message_type: NamespacedType | AbstractNestedType) -> Any:
     """Return the class of a type; one of an action's feedback has no name of its own."""
+    if isinstance(message_type, AbstractNestedType):
+        warnings.warn('pass the type of the elements, not of the array', DeprecationWarning, 2)
+        message_type = message_type.value_type
     module = importlib.import_module('.'.join(message_type.namespaces))
     action, found, kind = message_type.name.rpartition('_')
     if found and kind == 'FeedbackMessage':
@@ -210,20 +226,16 @@ def set_message_fields(
 
     Raises:
         AttributeError: There is no such field.
-        TypeError: ``values`` is no mapping.
+        TypeError: What is to have fields is no mapping.
         ValueError: A value is none of its field.
     """
-    if not isinstance(values, Mapping):
-        kind = type(values).__name__
-        raise TypeError(f"Value '{values}' is expected to be a dictionary but is a {kind}")
+    words = Words(expand_header_auto, expand_time_now)
     try:
-        stamps = set_fields(msg, dict(values))
-    except AmrError as error:
-        is_unknown = 'has no attribute' in str(error)
-        raise (AttributeError if is_unknown else ValueError)(str(error)) from error
-    if stamps and not (expand_header_auto or expand_time_now):
-        raise ValueError("'auto' and 'now' are no values of a header or a time here")
-    return stamps
+        return set_fields(msg, values, words)
+    except FieldError as error:
+        kinds = {'has no attribute': AttributeError, 'expected to be a dictionary': TypeError}
+        kind = next((kind for text, kind in kinds.items() if text in error.reason), ValueError)
+        raise kind(error.reason if kind is TypeError else str(error)) from error
 
 
 def _ordered(value: Any) -> Any:

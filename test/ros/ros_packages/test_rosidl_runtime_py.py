@@ -4,8 +4,9 @@
 
 from collections import OrderedDict
 
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Point, Pose, PoseArray, PoseStamped
 import pytest
+from rosidl_parser.definition import NamespacedType, UnboundedSequence
 from rosidl_runtime_py import (
     get_action_interfaces,
     get_interface_packages,
@@ -67,12 +68,50 @@ def test_what_is_written_is_read_again():
         ({'nome': []}, AttributeError, "has no attribute 'nome'"),
         ({'position': 'far'}, ValueError, 'position'),
         ([1.0], TypeError, 'expected to be a dictionary but is a list'),
-        ({'header': {'stamp': 'now'}}, ValueError, "'auto' and 'now'"),
+        (
+            {'header': 'auto'},
+            TypeError,
+            "^Value 'auto' is expected to be a dictionary but is a str$",
+        ),
+        ({'header': {'stamp': 'now'}}, TypeError, "^Value 'now' is expected to be a dictionary"),
     ],
 )
 def test_what_is_no_value_is_refused(values, error, text):
     with pytest.raises(error, match=text):
         set_message_fields(JointState(), values)
+
+
+def test_a_field_may_be_given_as_a_message():
+    pose = PoseStamped()
+    given = Pose(position=Point(x=2.0))
+    set_message_fields(pose, {'pose': given})
+    array = PoseArray()
+    set_message_fields(array, {'poses': [given, {'position': {'x': 2.0}}]})
+    assert pose.pose == given == array.poses[0] == array.poses[1]
+    with pytest.raises(TypeError, match='expected to be a dictionary but is a Point'):
+        set_message_fields(pose, {'pose': Point()})
+
+
+@pytest.mark.parametrize(
+    ('function', 'name', 'error', 'text'),
+    [
+        (get_message, 'std_srvs/srv/Trigger', ValueError, 'the full name of a message, got'),
+        (get_service, 'std_msgs/msg/String', ValueError, "a service, got 'std_msgs/msg/String'"),
+        (get_action, 'std_msgs/msg/String', ValueError, 'the full name of an action, got'),
+        (get_message, 'a_package_that_is_not/Any', ModuleNotFoundError, 'a_package_that_is_not'),
+        (get_message, 'std_msgs/Nothing', AttributeError, 'Nothing'),
+        (get_interface, 'String', ValueError, 'is not written as'),
+    ],
+)
+def test_what_is_no_such_interface_is_an_error_as_of_an_import(function, name, error, text):
+    with pytest.raises(error, match=text):
+        function(name)
+
+
+def test_the_type_of_an_array_is_taken_with_a_warning():
+    array = UnboundedSequence(NamespacedType(['std_msgs', 'msg'], 'String'))
+    with pytest.warns(DeprecationWarning, match='not of the array'):
+        assert import_message_from_namespaced_type(array) is String
 
 
 def test_classes_and_files_are_found_by_name():
