@@ -154,7 +154,9 @@ _ELSEWHERE = (
     'one (docs/two_machines.md)'
 )
 INSTEAD_OF_MODULES = {
+    'PIL': _PIP.format('Pillow'),
     'PyKDL': _ELSEWHERE,
+    'actionlib': _ROS_1.format('rclpy.action'),
     **dict.fromkeys(
         (
             'ament_black',
@@ -168,7 +170,9 @@ INSTEAD_OF_MODULES = {
         ),
         _NO_LINTER,
     ),
+    'bson': _PIP.format('pymongo') + ', as rosbridge needs it',
     'cv2': _PIP.format('opencv-python-headless'),
+    'dynamic_reconfigure': _ROS_1.format('the parameters of a node, and ros2 param'),
     'kdl_parser_py': _ELSEWHERE,
     'lark': _PIP.format('lark') + ', as the original launch needs it',
     'moveit': _ELSEWHERE,
@@ -182,13 +186,18 @@ INSTEAD_OF_MODULES = {
     'python_qt_binding': _GRAPH,
     'qt_gui': _GRAPH,
     'ros2_numpy': _FROM_SOURCE,
+    'rosbag': _ROS_1.format('rosbag2_py'),
     'rosbridge_library': _FROM_SOURCE,
     'rosbridge_server': _FROM_SOURCE,
+    'roslaunch': _ROS_1.format('launch, and ros2 launch'),
+    'roslib': _ROS_1.format('ament_index_python'),
     'rospkg': _ROS_1.format('ament_index_python'),
     'rospy': _ROS_1.format('rclpy'),
     'rqt_gui': _GRAPH,
     'rqt_gui_py': _GRAPH,
     'rviz_common': _PAGE,
+    'simple_pid': _PIP.format('simple-pid'),
+    'sros2': _FROM_SOURCE,
     'tf': _ROS_1.format('tf2_ros, and tf_transformations for angles'),
     'tf2_kdl': _ELSEWHERE,
     'transforms3d': _PIP.format('transforms3d'),

@@ -10,5 +10,6 @@ Names, arguments and lines of the log are those of Jazzy. It is written anew.
 ``costmap_2d.py``               ``PyCostmap2D``: the cells of an OccupancyGrid
 ``line_iterator.py``            ``LineIterator``: the points of a line
 ``footprint_collision_checker.py`` ``FootprintCollisionChecker``: the costs below a footprint
+``turtlebot4_navigator.py``     ``TurtleBot4Navigator``, as turtlebot4_navigation has it: a dock
 =============================== ===================================================================
 """

@@ -58,11 +58,11 @@ def set_fields(message: Any, values: Any, words: Words = Words()) -> list[Stamp]
     :raises FieldError: A value does not fit; the line names its field.
     """
     stamps: list[Stamp] = []
-    _Filler(words, stamps).fill(message, values, '')
+    _FieldSetter(words, stamps).fill(message, values, '')
     return stamps
 
 
-class _Filler:
+class _FieldSetter:
     """Sets fields; collects what is to be done at each publication."""
 
     def __init__(self, words: Words, stamps: list[Stamp]) -> None:

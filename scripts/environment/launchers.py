@@ -90,6 +90,9 @@ MODULES = {
     'diagnostic_updater': 'ros_packages.diagnostic_updater',
     'image_geometry': 'ros_packages.image_geometry',
     'image_geometry.cameramodels': 'ros_packages.image_geometry',
+    'interactive_markers': 'ros_packages.interactive_markers',
+    'interactive_markers.interactive_marker_server': 'ros_packages.interactive_markers',
+    'interactive_markers.menu_handler': 'ros_packages.interactive_markers',
     'laser_geometry': 'ros_packages.laser_geometry',
     'launch_pytest': 'launch_testing.pytest_plugin',
     'launch_pytest.actions': 'launch_testing.actions',
@@ -159,6 +162,8 @@ MODULES = {
     'tf2_sensor_msgs': 'tf2_ros.clouds',
     'tf2_sensor_msgs.tf2_sensor_msgs': 'tf2_ros.clouds',
     'tf_transformations': 'ros_packages.tf_transformations',
+    'turtlebot4_navigation': None,
+    'turtlebot4_navigation.turtlebot4_navigator': 'nav2_simple_commander.turtlebot4_navigator',
     'urdf_parser_py': None,
     'urdf_parser_py.urdf': 'ros_packages.urdf_parser_py',
 }

@@ -29,25 +29,26 @@ MOST_LINES_OF_A_FUNCTION = 60
 MOST_PUBLIC_NAMES = 12
 FEW_LINES = 80
 # They only fall: a change may lower one; who raises one writes the reason beside it. The last
-# were: simulations without ROS (recordings, services, actions, frames, replays, films, the page);
-# robots of others (what is lost is frozen, verdicts by motions, geometry and dialects of plugins,
-# joints of no tag, early mecanum drives, controllers to do without, what stands on legs or on what
-# is below, meshes that take long); trials, robots to learn in; the page's graph, its two threads
-# as types, slow pages; a mux and passthrough in the chain; launch files (commands at their time,
-# joysticks, tried one by one); Python halves of C++ packages; what clients of Nav2 ask; bags of
-# SQLite; Python packages of ROS, with the many names of the originals: nav2_simple_commander,
-# cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations, diagnostic_updater, rosbag2_py
-# (four of its names are also the bag's), launch_testing (14 modules), urdf_parser_py (15 of its
-# names are also the model's), image_geometry, ros2node.api. Of helpers: fakes of processes, evo
-# and KISS-ICP, colours of workers.
+# were: simulations without ROS (recordings, services, actions, frames, replays, films, the
+# page); robots of others (what is lost is frozen, verdicts by motions, geometry and dialects of
+# plugins, joints of no tag, early mecanum drives, controllers to do without, what stands on legs
+# or on what is below, meshes that take long); trials, robots to learn in; the page's graph, its
+# two threads as types, slow pages; a mux and passthrough in the chain; launch files (commands at
+# their time, joysticks, tried one by one); Python halves of C++ packages; what clients of Nav2
+# ask; bags of SQLite; Python packages of ROS, with the many names of the originals:
+# nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations,
+# diagnostic_updater, rosbag2_py (four of its names are also the bag's), launch_testing (14
+# modules), urdf_parser_py (15 of its names are also the model's), image_geometry, ros2node.api,
+# interactive_markers, turtlebot4_navigation. Of helpers: fakes of processes, clients of markers,
+# a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
-    'modules': 865,
-    'code lines': 100_345,
+    'modules': 867,
+    'code lines': 100_817,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_298,
+    'code lines of helpers in test files': 27_395,
 }
 
 BASE = {

@@ -71,7 +71,7 @@ def test_what_is_written_is_read_again():
         (
             {'header': 'auto'},
             TypeError,
-            "^Value 'auto' is expected to be a dictionary but is a str$",
+            "^Value 'auto' .* a dictionary but is a str$",
         ),
         ({'header': {'stamp': 'now'}}, TypeError, "^Value 'now' is expected to be a dictionary"),
     ],
