@@ -46,8 +46,6 @@ def apply_gazebo_physics(
         log(Severity.WARN, fault)
     if physics.unknown:
         log(Severity.WARN, physics.unknown)
-    if physics.slip:
-        log(Severity.WARN, physics.slip)
     if physics.solver:
         log(Severity.INFO, physics.solver)
     for name, joint in physics.joints.items():

@@ -104,6 +104,8 @@ class RobotSpec:
     """
     rollers: Mapping[str, Rollers]
     """Of mecanum and omni wheels, by geom."""
+    slipping: Collection[str]
+    """The geoms of wheels without rollers that slip in proportion to the force."""
     casters: tuple[str, ...]
     """The names of the geoms of a wheeled robot that touch and are no wheels: possible casters."""
     frictions: Mapping[str, float]
@@ -148,9 +150,7 @@ def build_robot(
         _refuse_massless(robot)
     hardware = hardware_of(robot)
     controlled = [joint for info in hardware for joint in info.joints]
-    commands = _commands_of(controlled)
-    if not any(commands.values()):
-        commands |= _held_joints(robot, log)
+    commands = _commands_of(controlled, robot, log)
     try:
         spec, collisions = _read(robot, log, strict=strict)
         _replace_floating_joints(spec, robot)
@@ -165,8 +165,9 @@ def build_robot(
         casters = _name_casters(spec) if wheels else ()
         physics = gazebo_physics_of(robot)
         frictions = apply_gazebo_physics(spec, robot, physics, wheels, log)
-        described = described_rollers(robot, physics)
-        rollers = rollers_of(wheels, described, named_rollers, frictions, log)
+        rollers = described_rollers(robot, physics)
+        rollers = rollers_of(wheels, rollers, named_rollers, frictions, log)
+        slipping = {wheel_geom_name(each) for each in physics.slipping}.difference(rollers)
         if any(gpio.name == BASE for info in hardware for gpio in info.gpios):
             add_base_servo(spec, root_joint(robot))
         # Compiled alone first: a robot that MuJoCo rejects never gets into the world.
@@ -177,11 +178,11 @@ def build_robot(
             f'{robot.source}: MuJoCo refuses the model: {compiler_message(str(cause))}',
             SpawnCode.RESOURCE_PARSE_ERROR,
         ) from cause
-    free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     _warn_of_fall(spec, robot, log)
+    free = None if robot.root.name == WORLD_LINK else root_joint(robot)
     initial = initial_states(robot, controlled, log, strict=strict)
     return RobotSpec(
-        spec, wheels, rollers, casters, frictions, commands, initial, free, collisions
+        spec, wheels, rollers, slipping, casters, frictions, commands, initial, free, collisions
     )
 
 
@@ -232,12 +233,14 @@ def _refuse_massless(robot: Robot) -> None:
         )
 
 
-def _commands_of(controlled: Iterable[ComponentInfo]) -> dict[str, tuple[str, ...]]:
-    """Return what each joint, which two blocks may share, is commanded by."""
+def _commands_of(
+    controlled: Iterable[ComponentInfo], robot: Robot, log: Log
+) -> dict[str, tuple[str, ...]]:
+    """Return what each joint, which two blocks may share, is commanded by, or held."""
     commands: dict[str, tuple[str, ...]] = {}
     for joint in controlled:
         commands[joint.name] = commands.get(joint.name, ()) + _quantities(joint)
-    return commands
+    return commands if any(commands.values()) else commands | _held_joints(robot, log)
 
 
 def _quantities(joint: ComponentInfo) -> tuple[str, ...]:

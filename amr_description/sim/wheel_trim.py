@@ -14,7 +14,7 @@ wheels rests on: a skid, a fixed caster wheel, its tail. With MuJoCo's default c
 and the wheels slip by 10 %; so it gets the contact of a wheel too.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 import hashlib
 import math
@@ -89,6 +89,9 @@ def trimmed_contacts(
     for geom, rest in rests.items():
         contact = _settings_of(geom, model, settings)
         contacts[geom] = replace(contact, margin=max(0.0, settings.margin - rest.height))
+    for geom, share in _shares_of_grip(model.slipping, rests).items():
+        grip = min(1.0, contacts[geom].sliding_friction)
+        contacts[geom] = replace(contacts[geom], sliding_friction=grip * share)
     warning = drag_warning(model, rests)
     if warning:
         log(Severity.WARN, warning)
@@ -121,6 +124,18 @@ def drag_warning(model: RobotSpec, rests: Mapping[str, Rest]) -> str:
         f'pull with {pull:.3g} N at most: they slip; as a ball that rolls, write <gazebo '
         f'reference="{links[0]}"><mu1>0.01</mu1></gazebo>'
     )
+
+
+def _shares_of_grip(slipping: Collection[str], rests: Mapping[str, Rest]) -> Mapping[str, float]:
+    """
+    Return the share of its friction that is left to each wheel that slips by force, not by load.
+
+    So all of them hold the robot as hard as that which bears least; where wheels one behind the
+    other scrub in a turn, it turns as with loads that are equal, wherever its weight is.
+    """
+    loads = {geom: rest.load for geom, rest in rests.items() if geom in slipping and rest.load > 0}
+    least = min(loads.values(), default=0.0)
+    return {geom: least / load for geom, load in loads.items()}
 
 
 def _settings_of(geom: str, model: RobotSpec, settings: ContactSettings) -> ContactSettings:

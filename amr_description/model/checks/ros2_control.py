@@ -22,6 +22,8 @@ _TOLERANCE = 0.01
 _FITTED_TOLERANCE = 0.02
 # m; wheels of one side that are farther apart along x scrub sideways in a turn.
 _SCRUBBING = 0.01
+# Of a separation with a multiplier, which is measured on some ground.
+_MEASURED_TOLERANCE = 0.05
 _MANY_COORDINATES = (JointType.PLANAR, JointType.FLOATING)
 _OF_JOINTS = ('position', 'velocity', 'acceleration', 'effort', 'torque', 'force', 'current')
 # Between a typing error ("velocty", 0.93) and another word ("speed", 0.15).
@@ -227,10 +229,12 @@ def scrubbing_is_accounted_for(context: CheckContext) -> Iterator[Finding]:
     """
     for drive in context.inputs.drives:
         length, width = _length(context, drive), _track(context, drive)
-        scrubs = length > _SCRUBBING and width > 0.0 and drive.separation_multiplier == 1.0
-        if not scrubs or _is_widened(context, drive):
+        if not (length > _SCRUBBING and width > 0.0) or _is_widened(context, drive):
             continue
         guess = 1.0 + length / width * (length / width)
+        if drive.separation_multiplier != 1.0:
+            yield from _fits_scrubbing(drive, width * guess, guess)
+            continue
         if drive.is_plugin:
             yield drive.warning(
                 'wheel_separation',
@@ -247,6 +251,22 @@ def scrubbing_is_accounted_for(context: CheckContext) -> Iterator[Finding]:
             found='wheel_separation_multiplier 1.0',
             expected=f'about 1 + (L/W)² = {guess:.2f}',
             fix=f'write wheel_separation_multiplier: {guess:.2f}, then measure a full turn',
+        )
+
+
+def _fits_scrubbing(drive: DriveSettings, needed: float, guess: float) -> Iterator[Finding]:
+    """Compare a separation with its multiplier to what scrubbing makes of that of the wheels."""
+    told = drive.separation * drive.separation_multiplier
+    if abs(told - needed) > _MEASURED_TOLERANCE * needed:
+        yield drive.warning(
+            'wheel_separation_multiplier',
+            'wheels one behind the other scrub in a turn, and wheel_separation with its '
+            f'multiplier does not fit that: the robot turns {100.0 * told / needed:.0f} % of what '
+            'is told',
+            found=f'{told:.4g} m',
+            expected=f'{needed:.4g} m, that of the wheels times 1 + (L/W)² = {guess:.2f}',
+            fix=f'write wheel_separation_multiplier: {needed / drive.separation:.2f}, unless it '
+            'was measured on the ground that the robot drives on',
         )
 
 

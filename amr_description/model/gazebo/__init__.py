@@ -6,6 +6,7 @@
 ====================== ============================================================================
 ``tags.py``            plugins and sensors, and the plugin that hosts ros2_control
 ``physics.py``         ``<gazebo reference="…">``: friction, springs, gravity, self-collision
+``slip.py``            … wheels that slip in proportion to the force
 ``sensors.py``         lidars, cameras and contact sensors of ``<sensor>`` tags
 ``sensor_tags.py``     … the values of these tags, checked
 ``classic_sensors.py`` … what Gazebo Classic's plugins in them publish

@@ -7,7 +7,7 @@ A value is the text of its element or the attribute ``value``, as in sdformat: `
 ``<mu1 value="0.1"/>``; of two the last one counts. Plugins and sensors are read elsewhere.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 import math
 from typing import Any
@@ -16,10 +16,11 @@ from lxml import etree
 
 from amr_description.model.findings import raise_error
 from amr_description.model.frames import Vector
+from amr_description.model.gazebo.slip import slipping_links
 from amr_description.model.origins import place_in
 from amr_description.model.robot import Robot
 from amr_description.model.xml_reader import line_of, parse_number, parse_xml
-from amr_description.text import quote, quote_all, truth
+from amr_description.text import quote, truth
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +64,8 @@ class GazeboPhysics:
     """One line about settings of Gazebo's solver, which has no counterpart; empty: none."""
     unknown: str = ''
     """One line about elements that are not known here; empty: none."""
-    slip: str = ''
-    """One line about links that Gazebo lets slip in proportion to the force; empty: none."""
+    slipping: Collection[str] = ()
+    """Links that Gazebo lets slip in proportion to the force."""
 
 
 _MU1 = ('mu1', 'mu', 'collision/surface/friction/ode/mu')
@@ -78,11 +79,6 @@ _SOLVER = frozenset(
     + ('velocity_decay', 'physics', 'soft_cfm', 'soft_erp', 'dampingThreshold')
 )
 _READ = frozenset((*_MU1, *_MU2, *_FDIR1, *_SLIP, *_SELF_COLLIDE, 'gravity', 'turnGravityOff'))
-SCRUBBING = (
-    'so wheels one behind the other scrub in a turn, and the robot turns less than in Gazebo, and '
-    'less than its odometry says'
-)
-"""What follows where Gazebo's slip of wheels, in proportion to the force, is not simulated."""
 _READ_OF_JOINTS = frozenset(('springStiffness', 'springReference'))
 # Colours, what is read elsewhere, and what is so here anyway: fixed joints keep their links.
 _OTHERS = frozenset(
@@ -96,7 +92,7 @@ def gazebo_physics_of(robot: Robot) -> GazeboPhysics:
     """Return what the ``<gazebo>`` blocks of a robot say of its physics."""
     root = parse_xml(robot.text, robot.source, raise_error)
     assert root is not None, 'raise_error does not return from an error'
-    reader = _PhysicsReader(robot)
+    reader = _PhysicsReader(robot, slipping_links(root))
     for block in root.iterchildren('gazebo'):
         reader.read(block)
     return reader.result()
@@ -105,13 +101,13 @@ def gazebo_physics_of(robot: Robot) -> GazeboPhysics:
 class _PhysicsReader:
     """Reads one block after the other."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: Robot, slipping: Iterable[str]) -> None:
         self._robot = robot
         self._links: dict[str, GazeboLink] = {}
         self._joints: dict[str, GazeboJoint] = {}
         self._faults: list[str] = []
         self._self_collides = False
-        self._slipping: list[str] = []
+        self._slipping = {*slipping}
         self._solver: dict[str, int] = {}
         self._unknown: dict[str, int] = {}
 
@@ -140,14 +136,8 @@ class _PhysicsReader:
                 "set contacts and stops of Gazebo's solver; this one has its own",
             ),
             unknown=self._line(self._unknown, 'are not known here, and are left out'),
-            slip=self._slip_line(),
+            slipping=frozenset(self._slipping),
         )
-
-    def _slip_line(self) -> str:
-        if not self._slipping:
-            return ''
-        links = quote_all(self._slipping)
-        return f'{self._robot.source}: <slip1>, <slip2> of {links} are not simulated; {SCRUBBING}'
 
     def _line(self, counts: Mapping[str, int], what: str) -> str:
         if not counts:
@@ -175,7 +165,7 @@ class _PhysicsReader:
             )
         slips = [parse_number(_text(found)) for tag in _SLIP for found in block.findall(tag)]
         if any(slip > 0.0 for slip in slips):
-            self._slipping.append(name)
+            self._slipping.add(name)
         if values:
             self._links[name] = replace(self._links.get(name, GazeboLink()), **values)
 

@@ -41,9 +41,9 @@ from amr_description.model.gazebo.builder import Builder, GazeboTranslation
 from amr_description.model.gazebo.drives import DRIVES, FIRST
 from amr_description.model.gazebo.instruments import add_instrument
 from amr_description.model.gazebo.joints import JOINTS, LAST
-from amr_description.model.gazebo.physics import SCRUBBING
 from amr_description.model.gazebo.plugins import plugins_of, sensors_of
 from amr_description.model.gazebo.sensors import read_sensors, SERVED_ELSEWHERE
+from amr_description.model.gazebo.slip import KINDS as OF_WHEEL_SLIP
 from amr_description.model.origins import raise_error_of
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
@@ -84,9 +84,7 @@ def translate(
     for plugin in sorted(plugins, key=lambda each: (each.kind in LAST, each.kind not in FIRST)):
         if plugin.kind in _TRANSLATORS:
             _TRANSLATORS[plugin.kind](builder, plugin)
-        elif plugin.kind == 'wheel-slip':
-            builder.notes.append(f"Gazebo's WheelSlip is not simulated; {SCRUBBING}")
-        elif not plugin.is_world_matter:
+        elif not plugin.is_world_matter and plugin.kind not in OF_WHEEL_SLIP:
             builder.lacking.append(('plugin', plugin.name or plugin.filename, plugin.library))
     seeing = read_sensors(xml, robot, builder.sensors)
     builder.lacking += [('sensor', name, kind) for name, kind in seeing.lacking]

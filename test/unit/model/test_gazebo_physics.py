@@ -104,11 +104,28 @@ def test_colours_and_blocks_of_nothing_say_nothing():
     assert (found.faults, found.solver, found.unknown) == ((), '', '')
 
 
-def test_slip_in_proportion_to_the_force_is_told():
+def test_wheels_that_slip_in_proportion_to_the_force_are_known():
     surface = '<surface><friction><ode><slip1>{}</slip1></ode></friction></surface>'
     ode = f'<collision>{surface}</collision>'
     told = read(f'<gazebo reference="a">{ode.format(0.035)}</gazebo>')
-    assert told.slip.startswith('r.urdf: <slip1>, <slip2> of "a" are not simulated; so wheels one')
-    assert 'scrub in a turn' in told.slip
-    assert not told.unknown
-    assert not read(f'<gazebo reference="a">{ode.format(0)}</gazebo>').slip
+    assert (told.slipping, told.unknown) == ({'a'}, '')
+    assert not read(f'<gazebo reference="a">{ode.format(0)}</gazebo>').slipping
+
+
+@pytest.mark.parametrize(
+    ('plugin', 'wheel'),
+    [
+        (
+            '<plugin filename="x" name="gz::sim::systems::WheelSlip">',
+            '<wheel link_name="{}"><slip_compliance_lateral>{}</slip_compliance_lateral></wheel>',
+        ),
+        (
+            '<plugin filename="libgazebo_ros_wheel_slip.so" name="slip">',
+            '<wheel link_name="{}" lateral_slip_compliance="{}"/>',
+        ),
+    ],
+    ids=['Gazebo', 'Classic'],
+)
+def test_wheels_of_the_plugin_wheel_slip_are_among_them(plugin, wheel):
+    wheels = wheel.format('a', 1.0) + wheel.format('b', 0)
+    assert read(f'<gazebo>{plugin}{wheels}</plugin></gazebo>').slipping == {'a'}

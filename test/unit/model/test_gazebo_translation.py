@@ -712,7 +712,7 @@ def test_a_drive_beside_ros2_control_drives_wheels_that_no_controller_claims(tmp
     assert translate(robot, [file]).controllers
 
 
-def test_slip_of_wheels_is_told_with_what_follows():
+def test_slip_of_wheels_is_simulated_as_friction_and_says_nothing():
     found = translated(plugin('libgz-sim-wheel-slip-system.so', 'gz::sim::systems::WheelSlip'))
     assert not found.not_simulated
-    assert found.notes[0].startswith("Gazebo's WheelSlip is not simulated; so wheels one behind")
+    assert not found.notes

@@ -166,3 +166,31 @@ def test_a_file_that_cannot_be_used_is_one_line(check):
     assert code == 1
     assert len(lines) == 1
     assert lines[0].startswith("error: c.yaml:1: below 'controller_manager' stands 7, and no ")
+
+
+@pytest.mark.parametrize(
+    ('multiplier', 'said'),
+    [
+        (2.82, []),  # measured
+        (2.65, []),  # of another ground
+        (
+            2.0,
+            'the robot turns 72 % of what is told: found 0.6 m, expected 0.8333 m, that of the '
+            'wheels times 1 + (L/W)² = 2.78; write wheel_separation_multiplier: 2.78, unless it '
+            'was measured on the ground that the robot drives on',
+        ),
+        (3.2, 'the robot turns 115 % of what is told'),
+    ],
+)
+def test_a_multiplier_that_does_not_fit_wheels_that_scrub_is_told(check, multiplier, said):
+    text = SHIPPED.replace(
+        'wheel_separation_multiplier: 2.82', f'wheel_separation_multiplier: {multiplier}'
+    )
+    assert (text == SHIPPED) == (multiplier == 2.82)
+    code, lines = check(AMR, text)
+    assert code == 0
+    if said:
+        (line,) = lines
+        assert line.startswith('warning: c.yaml:') and said in line
+    else:
+        assert lines == []

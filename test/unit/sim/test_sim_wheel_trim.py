@@ -6,7 +6,7 @@ import re
 from statistics import mean, pstdev
 
 from fixtures.sim.arm import ARM
-from fixtures.sim.driving import AMR, Lines, ROOT
+from fixtures.sim.driving import AMR, Drive, Lines, ROOT, SEPARATION as TOLD
 import pytest
 
 from amr_description.log import null_log
@@ -196,3 +196,37 @@ def test_faults_while_trimming_are_not_logged_for_the_world():
     world.engine.data.qvel[0] = 1e20
     world.step(10)
     assert len(log.lines) >= 1
+
+
+def turned(urdf):
+    """How much of the turn that is told a robot makes, at a steady speed."""
+    drive = Drive(urdf)
+    wheels = drive.wheels
+    drive.command(0.0, 0.5)
+    drive.world.step(1500)
+    rates = []
+    for _ in range(100):
+        drive.world.step(10)
+        rates.append(drive.robot.velocity('base_footprint')[1][2])
+    assert wheels.velocities() == pytest.approx([-2.115, -2.115, 2.115, 2.115], rel=0.01)
+    return mean(rates) / 0.5
+
+
+def test_wheels_that_slip_by_force_turn_a_robot_alike_wherever_its_weight_is():
+    """Gazebo's WheelSlip. With equal loads: b / (a² + b²) of the speed of the wheels, ±a, ±b."""
+    aside = AMR.replace('<mass value="5.0"/>', '<origin xyz="0.06 -0.06 0"/><mass value="5.0"/>')
+    assert aside != AMR
+    wheels = ''.join(
+        f'<wheel link_name="wheel_{row}_{side}">'
+        '<slip_compliance_lateral>1</slip_compliance_lateral></wheel>'
+        for row in ('front', 'back')
+        for side in ('left', 'right')
+    )
+    plugin = (
+        f'<plugin filename="libgz-sim-wheel-slip-system.so" name="WheelSlip">{wheels}</plugin>'
+    )
+    slipping = aside.replace('</robot>', f'<gazebo>{plugin}</gazebo></robot>')
+    closed = TOLD / 2 * 0.15 / (0.2**2 + 0.15**2)
+    # Measured: 1.015, and by each wheel's load 0.9.
+    assert turned(slipping) == pytest.approx(closed, rel=0.01)
+    assert turned(aside) < 0.95 * closed
