@@ -35,6 +35,9 @@ line: no node, no DDS.
 While no page is open, nothing is subscribed. Commands are stamped with the time of ``/clock`` if
 it is published, whatever ``use_sim_time`` is.
 
+Behind a proxy, of TLS or at a path, it needs to know the origin that browsers see:
+``-p allowed_origins:="['https://hub.example']"``.
+
 The page is for this host only. With ``-p host:=0.0.0.0`` (or an address of this host) it can be
 opened from other hosts, at an address with a random token. It is plain HTTP: use it only in a
 trusted network.
@@ -44,6 +47,7 @@ from argparse import ArgumentParser
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
+import os
 from pathlib import Path
 import secrets
 import sys
@@ -64,6 +68,7 @@ from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import argument_errors, program, ros, serve
 from amr_description.ros.signals import StopRequests
 from amr_description.ros_arguments import other_arguments, parameters_in
+from amr_description.viewer.access import Proxies
 from amr_description.viewer.backend import Backend
 from amr_description.viewer.ros.backend import GraphBackend
 from amr_description.viewer.ros.bag_backend import BagBackend
@@ -90,6 +95,19 @@ class ViewerSettings:
         read_only=True,
         minimum=0,
         maximum=65535,
+    )
+    allowed_origins: tuple[str, ...] = parameter(
+        (),
+        'Origins of pages behind a proxy, such as https://hub.example; GitHub Codespaces is known',
+        read_only=True,
+    )
+    allowed_hosts: tuple[str, ...] = parameter(
+        (),
+        'What a proxy may send as Host, where that is neither this host nor one of those origins',
+        read_only=True,
+    )
+    frame_ancestors: tuple[str, ...] = parameter(
+        (), 'Origins of pages of which this one may be a frame', read_only=True
     )
     bag_folder: str = parameter(
         '',
@@ -137,6 +155,8 @@ def _say_where(server: Server, log: Callable[[str], object]) -> None:
         log(f'The page is at {address}, for those who have its secret, which stdout has')
     else:
         log(f'The page is at {address}')
+    for origin in server.origins:
+        log(f'Pages of {origin} may use it')
 
 
 def _backend(node: Node, executor: SingleThreadedExecutor) -> GraphBackend:
@@ -153,6 +173,7 @@ def _server(
     settings: ViewerSettings, backend: Backend, log_error: Callable[[str], object], domain: int
 ) -> Server:
     """Create the server of a backend. Raises ViewerError."""
+    proxies = Proxies(settings.allowed_hosts, settings.allowed_origins, settings.frame_ancestors)
     return Server(
         ServerSettings(
             host=settings.host,
@@ -162,6 +183,7 @@ def _server(
             always_token=settings.token,
             version=_version(),
             domain=domain,
+            proxies=proxies.and_those_of(os.environ),
         ),
         backend,
         log_error,

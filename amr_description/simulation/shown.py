@@ -29,6 +29,7 @@ from amr_description.simulation.page_backend import PageBackend, SIMULATOR
 from amr_description.simulation.playing import Playing
 from amr_description.simulation.robot import Robot
 from amr_description.simulation.shown_scene import Scene, shown_robot, ShownRobot, world_of
+from amr_description.viewer.access import Proxies
 from amr_description.viewer.backend import Hold
 from amr_description.viewer.protocol import ServerMessage, SimulationStatus, TimeReset, World
 from amr_description.viewer.real_time import RealTimeFactor
@@ -96,7 +97,7 @@ class ShownPage:
             port=port,
             token=secrets.token_urlsafe(18),
             always_token=token,
-            ancestors=LOCAL_PAGES,
+            proxies=Proxies(ancestors=LOCAL_PAGES),
         )
         log = logging.getLogger('amr_description.page')
         self._server = self._backend.server = Server(settings, self._backend, log.error)

@@ -22,7 +22,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
 from amr_description.errors import ProtocolError, ViewerError
-from amr_description.viewer.access import Access, is_loopback, TOKEN_PARAMETER
+from amr_description.viewer.access import Access, is_loopback, Proxies, TOKEN_PARAMETER
 from amr_description.viewer.backend import Backend
 from amr_description.viewer.drive_lock import DRIVE_TIMEOUT
 from amr_description.viewer.http import HttpFiles, StaticFiles
@@ -69,7 +69,7 @@ class ServerSettings:
         always_token: required there, too: of the users of this host, only who has it may drive.
         version: of this package.
         domain: ROS domain id.
-        ancestors: where the page may be a frame, as Content-Security-Policy names such pages.
+        proxies: what may stand before it.
     """
 
     host: str = DEFAULT_HOST
@@ -79,13 +79,12 @@ class ServerSettings:
     always_token: bool = False
     version: str = ''
     domain: int = 0
-    ancestors: tuple[str, ...] = ()
+    proxies: Proxies = Proxies()
 
-    @property
-    def access(self) -> Access:
-        """The rules for requests."""
+    def access(self, port: int) -> Access:
+        """Return the rules for requests to a port."""
         is_needed = self.always_token or not is_loopback(self.host)
-        return Access(self.token if is_needed else None)
+        return self.proxies.access(self.token if is_needed else None, port)
 
 
 class Server:
@@ -104,7 +103,8 @@ class Server:
         self._log_error = log_error
         self._socket = _bind(settings.host, settings.port)
         files = StaticFiles(static)
-        self._http = HttpFiles(files, backend.mesh, settings.access, settings.ancestors)
+        self._access = settings.access(self._socket.getsockname()[1])
+        self._http = HttpFiles(files, backend.mesh, self._access, settings.proxies.ancestors)
         self.pages = Pages()
         """Those that are open; for the server's thread."""
         self._loop = asyncio.new_event_loop()
@@ -124,8 +124,13 @@ class Server:
         """The address of the page, with the token if it needs one."""
         host, port, *_ = self._socket.getsockname()
         host = f'[{host}]' if ':' in host else host
-        token = self._settings.access.token
+        token = self._access.token
         return f'http://{host}:{port}/' + (f'?{TOKEN_PARAMETER}={token}' if token else '')
+
+    @property
+    def origins(self) -> tuple[str, ...]:
+        """The origins behind proxies whose pages may use it."""
+        return self._access.origins
 
     def start(self, *, is_daemon: bool = False) -> None:
         """Start the thread; ``is_daemon``: the process may end without :meth:`stop`."""

@@ -165,12 +165,12 @@ class ScriptedRobots:
 
 
 @contextmanager
-def serving(scene):
+def serving(scene, **settings):
     """Serve a page with the robots of a scene; yields the backend and the address."""
     backend = ScriptedRobots(scene)
     problems = []
-    settings = ServerSettings(port=0, rate=RATE, version='1.0.0', domain=7)
-    server = backend.server = Server(settings, backend, problems.append)
+    asked = ServerSettings(port=0, rate=RATE, version='1.0.0', domain=7, **settings)
+    server = backend.server = Server(asked, backend, problems.append)
     server.start()
     try:
         yield backend, server.url

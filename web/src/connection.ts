@@ -160,8 +160,10 @@ function refusal(id: number, message: string): Reply {
   return { type: 'reply', id, ok: false, message, data: null, again: null };
 }
 
-/** Where the node of this page listens; a token in the page's address goes with it. */
-export function socketUrl(location: Pick<Location, 'protocol' | 'host' | 'search'>): string {
-  const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
-  return `${scheme}://${location.host}/ws${location.search}`;
+/**
+ * Where the node of this page listens: beside the page, which a proxy may have at a path. A token in the
+ * page's address goes with it.
+ */
+export function socketUrl({ href, search }: Pick<Location, 'href' | 'search'>): string {
+  return new URL(`ws${search}`, href).href.replace(/^http/, 'ws');
 }

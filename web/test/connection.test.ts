@@ -159,9 +159,10 @@ test('nothing goes into a connection that is not open', async () => {
 });
 
 test('the token of the page goes with the socket', () => {
-  const at = { protocol: 'http:', host: '127.0.0.1:8080', search: '?token=a1' };
-  assert.equal(socketUrl(at), 'ws://127.0.0.1:8080/ws?token=a1');
-  assert.equal(socketUrl({ ...at, protocol: 'https:', search: '' }), 'wss://127.0.0.1:8080/ws');
+  const socketOf = (href: string): string => socketUrl(new URL(href));
+  assert.equal(socketOf('http://127.0.0.1:8080/?token=a1#plots=x'), 'ws://127.0.0.1:8080/ws?token=a1');
+  assert.equal(socketOf('https://127.0.0.1:8080/'), 'wss://127.0.0.1:8080/ws');
+  assert.equal(socketOf('https://hub/user/me/proxy/8080/'), 'wss://hub/user/me/proxy/8080/ws');
 });
 
 test('a page that was busy hears of it, and its socket that it has let go', () => {

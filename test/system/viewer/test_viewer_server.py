@@ -351,6 +351,7 @@ def test_too_many_questions_at_once_are_refused(page):
 @pytest.mark.parametrize(
     ('parameter', 'text'),
     [
+        ("allowed_origins:=['*']", r"'\*' is no origin, such as https://hub\.example"),
         ('host:=192.0.2.1', r'cannot listen on 192\.0\.2\.1:'),
         ('port:=-1', 'port'),
     ],

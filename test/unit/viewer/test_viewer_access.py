@@ -4,7 +4,8 @@
 
 import pytest
 
-from amr_description.viewer.access import Access, cookie_name, is_loopback
+from amr_description.errors import ViewerError
+from amr_description.viewer.access import Access, cookie_name, is_loopback, Proxies
 
 HOSTS = [
     '127.0.0.1:8080',
@@ -100,3 +101,70 @@ def test_loopbacks_are_told_from_other_addresses():
 @pytest.mark.parametrize('access', [Access(), Access(TOKEN)])
 def test_a_host_is_a_name_and_a_port_and_nothing_else(access, host):
     assert refused(access, f'/?token={TOKEN}', Host=host) is not None
+
+
+HUB = 'https://hub.example'
+
+
+def behind(*, token=None, port=8080, **proxies):
+    return Proxies(**proxies).access(token, port)
+
+
+@pytest.mark.parametrize('host', ['hub.example', 'HUB.example', 'localhost:8080'])
+def test_a_page_behind_a_proxy_may_where_its_origin_is_named(host):
+    access = behind(origins=(HUB,))
+    assert refused(access, Host=host, Origin=HUB) is None
+    assert refused(access, Host=host) is None
+
+
+@pytest.mark.parametrize(
+    'origin',
+    ['http://hub.example', 'https://hub.example:444', 'https://hub.example.evil.example', 'null',
+     'https://evil.example', 'https://a.hub.example', '', 'http://hub.example:8080'],
+)  # fmt: skip
+def test_no_other_one_may_behind_it(origin):
+    for host in ('hub.example', 'localhost:8080'):
+        assert refused(behind(origins=(HUB,)), Host=host, Origin=origin)[0] == 403
+
+
+@pytest.mark.parametrize('host', ['hub.example:1', 'evil.example', 'hub.example.evil.example', ''])
+def test_nor_does_another_name_become_this_host_by_it(host):
+    assert refused(behind(origins=(HUB,)), Host=host, Origin=HUB)[0] == 421
+
+
+def test_what_a_proxy_sends_as_host_can_be_named():
+    access = behind(origins=(HUB,), hosts=('Viewer.internal', 'pod:9000'))
+    for host in ('viewer.internal', 'viewer.internal:80', 'pod:9000'):
+        assert refused(access, Host=host, Origin=HUB) is None
+    assert refused(access, Host='pod:9001')[0] == 421
+    assert refused(access, Host='viewer.internal', Origin='http://evil.example')[0] == 403
+
+
+def test_behind_a_proxy_the_token_is_asked_as_elsewhere():
+    access = behind(origins=(HUB,), token=TOKEN)
+    assert refused(access, Host='hub.example', Origin=HUB)[0] == 403
+    assert refused(access, f'/?token={TOKEN}', Host='hub.example', Origin=HUB) is None
+
+
+@pytest.mark.parametrize(
+    'wrong',
+    [{'origins': ('*',)}, {'origins': ('hub.example',)}, {'origins': ('https://hub.example/',)},
+     {'origins': ('https://*.example',)}, {'hosts': ('*',)}, {'hosts': ('a b',)},
+     {'ancestors': ('*',)}, {'ancestors': ("https://a; script-src 'none'",)},
+     {'ancestors': ('https://a,https://b',)}, {'ancestors': ('',)}],
+)  # fmt: skip
+def test_what_would_let_in_anybody_is_refused(wrong):
+    with pytest.raises(ViewerError, match=r'^[^\n]+ is no (host|origin|ancestor)'):
+        Proxies(**wrong)
+
+
+def test_a_codespace_is_known_by_its_environment():
+    known = {'CODESPACES': 'true', 'CODESPACE_NAME': 'fluffy-cat'}
+    access = Proxies().and_those_of(known).access(None, 8081)
+    page = 'https://fluffy-cat-8081.app.github.dev'
+    for host in ('fluffy-cat-8081.app.github.dev', 'localhost:8081'):
+        assert refused(access, Host=host, Origin=page) is None
+        for other in ('https://fluffy-cat-9000.app.github.dev', 'https://x-8081.app.github.dev'):
+            assert refused(access, Host=host, Origin=other)[0] == 403
+    for nothing in ({}, {'CODESPACES': 'true'}, {'CODESPACE_NAME': 'fluffy-cat'}):
+        assert Proxies().and_those_of(nothing) == Proxies()

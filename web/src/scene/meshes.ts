@@ -18,9 +18,14 @@ export function managerOf(files: Files): LoadingManager {
     if (address === undefined) {
       throw new Error(`'${name}' was not found`);
     }
-    return address;
+    return beside(address);
   });
   return manager;
+}
+
+/** An address of the node as one beside the page, which a proxy may have at a path. */
+function beside(address: string): string {
+  return address.replace(/^\//, '');
 }
 
 /** Fetch and read a mesh. Throws an Error with a message for the user. */
@@ -34,7 +39,7 @@ export async function loadMesh(
   if (address === undefined) {
     throw new Error(`the mesh '${name}' was not found`);
   }
-  const answer = await fetch(address);
+  const answer = await fetch(beside(address));
   if (!answer.ok) {
     throw new Error(`the mesh '${name}' was not served: ${answer.status} ${answer.statusText}`);
   }
