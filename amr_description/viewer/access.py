@@ -13,9 +13,9 @@ A browser lets every web site send requests to 127.0.0.1, so listening there onl
 A server that listens on another address has a random token: in the URL of the first request, then
 in a cookie. With it, any name of the host is accepted.
 
-A proxy before it (of TLS, of JupyterHub, of Codespaces) has a name of its own. Who starts the server
-names the origins of pages behind it, and further values of ``Host`` that it passes on; nothing else
-is accepted, and what is named is compared as a whole.
+A proxy before it (of TLS, of JupyterHub, of Codespaces) has a name of its own. Who starts the
+server names the origins of pages behind it, and further values of ``Host`` that it passes on;
+nothing else is accepted, and what is named is compared as a whole.
 
 Pure: the caller generates the token, and passes the environment.
 """
@@ -99,7 +99,7 @@ class Access:
         return host.lower() in self.hosts or host_name(host) in self.hosts
 
     def _is_origin(self, origin: str | None, host: str, *, is_own: bool) -> bool:
-        """Return whether a request may come from there; behind a proxy, from what is named alone."""
+        """Return whether a request may come from there; behind a proxy, from those named."""
         if origin is None or origin.lower() in self.origins:
             return True
         return is_own and origin.lower() == f'http://{host}'
