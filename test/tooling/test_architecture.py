@@ -43,12 +43,12 @@ FEW_LINES = 80
 # a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
     'modules': 868,
-    'code lines': 100_847,
+    'code lines': 100_908,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_432,
+    'code lines of helpers in test files': 27_542,
 }
 
 BASE = {
