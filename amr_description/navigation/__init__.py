@@ -19,7 +19,9 @@ module                         what it holds
 ``footprint.py``               the robot seen from above, as a polygon
 ``costmap.py``                 what it costs to be in a cell: map, scan, inflation
 ``planner.py``                 a path over a costmap: A*, smoothed
+``path_follower.py``           where on a path the robot is, and what is ahead of it
 ``regulated_pure_pursuit.py``  the velocity that follows a path
+``plugins.py``                 planners and followers of users: functions
 ``behaviors.py``               turn, back up, drive straight, wait, assisted teleop
 ``waypoints.py``               one goal after the other, some of which may be missed
 ``drive.py``                   a goal from the first step to the end: all of these together

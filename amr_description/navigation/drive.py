@@ -25,11 +25,13 @@ from amr_description.navigation.behaviors import (
 )
 from amr_description.navigation.costmap import Costmap, INSCRIBED
 from amr_description.navigation.footprint import Points
+from amr_description.navigation.path_follower import NO_VALID_CONTROL, PursuitSettings
 from amr_description.navigation.planner import PlannerSettings
-from amr_description.navigation.regulated_pure_pursuit import (
-    NO_VALID_CONTROL,
-    PursuitSettings,
-    RegulatedPurePursuit,
+from amr_description.navigation.plugins import (
+    find_follower,
+    find_planner,
+    PlanFunction,
+    VelocityFunction,
 )
 from amr_description.parameters import group, parameter
 
@@ -96,6 +98,10 @@ class NavigationDrive:
     """In the frame of the map; at all but the last one only the position counts."""
     given_path: Sequence[Pose] = ()
     """Follow this and do not plan; ``goals`` is its end then."""
+    plan: PlanFunction | None = None
+    """In place of the planner that the settings name."""
+    velocity: VelocityFunction | None = None
+    """In place of the follower that the settings name."""
     status: DriveStatus = DriveStatus.RUNNING
     error: NavigationError | None = None
     """Why it has failed."""
@@ -110,9 +116,9 @@ class NavigationDrive:
     def __post_init__(self) -> None:
         tolerance = self.settings.goal_checker.xy_goal_tolerance
         period = 1.0 / self.settings.controller_frequency
-        self._follower = RegulatedPurePursuit(
-            self.settings.pursuit, self.outline, tolerance, period
-        )
+        self._planner = find_planner(self.settings.planner, self.plan)
+        make = find_follower(self.settings.pursuit, self.velocity)
+        self._follower = make(self.settings.pursuit, self.outline, tolerance, period)
         self._index = 0
         self._planned_at = -math.inf
         self._is_there = False
@@ -134,6 +140,7 @@ class NavigationDrive:
     def configure(self, settings: NavigationDriveSettings) -> None:
         """Take other parameters from now on."""
         self.settings = settings
+        self._planner = find_planner(settings.planner, self.plan)
         self._follower.configure(settings.pursuit, settings.goal_checker.xy_goal_tolerance)
 
     def remaining(self, pose: Pose) -> float:
@@ -233,7 +240,7 @@ class NavigationDrive:
         if is_fresh and not self._is_path_blocked(pose, costmap):
             return
         self._planned_at = now
-        self._take(planner.plan(costmap, pose, self.goal, self.settings.planner))
+        self._take(self._planner(costmap, pose, self.goal))
 
     def _take(self, path: list[Pose]) -> None:
         self.path = path

@@ -27,6 +27,7 @@ GOAL_OUTSIDE_MAP = 204
 START_OCCUPIED = 205
 GOAL_OCCUPIED = 206
 NO_VALID_PATH = 208
+SMAC_PLANNER_2D = 'nav2_smac_planner::SmacPlanner2D'
 
 _DIAGONAL = math.sqrt(2.0)
 _LEAVING = 10.0
@@ -39,6 +40,9 @@ _LEAVING_RADIUS = 0.5
 class PlannerSettings:
     """Parameters of planner and smoother, by the names of Nav2."""
 
+    plugin: str = parameter(
+        SMAC_PLANNER_2D, 'What plans: this, or package.module/function', read_only=True
+    )
     cost_travel_multiplier: float = parameter(
         2.0, 'How much cells near obstacles are avoided', minimum=0.0
     )
@@ -60,16 +64,27 @@ def plan(costmap: Costmap, start: Pose, goal: Pose, settings: PlannerSettings) -
     first, last = _cell(costmap, start, 'start'), _cell(costmap, goal, 'goal')
     cells = _search(costmap, first, last, settings.cost_travel_multiplier)
     if cells is None:
-        raise NavigationError(
-            NO_VALID_PATH,
-            f'no path from {_text(start)} to {_text(goal)}: all ways are narrower than the robot, '
-            f'or lead through what nobody knows; choose a goal that can be reached',
-        )
+        raise no_path(start, goal)
     points = np.array([costmap.grid.center_of(*cell) for cell in cells])
     if len(points) == 1:
         return [goal]
     points[0], points[-1] = (start.x, start.y), (goal.x, goal.y)
-    return _turned(_smoothed(costmap, points, settings), goal)
+    return turned(_smoothed(costmap, points, settings), goal)
+
+
+def check_ends(costmap: Costmap, start: Pose, goal: Pose) -> None:
+    """Raise NavigationError: the robot cannot be at start, or at goal."""
+    _cell(costmap, start, 'start')
+    _cell(costmap, goal, 'goal')
+
+
+def no_path(start: Pose, goal: Pose) -> NavigationError:
+    """Return what says that there is no way."""
+    return NavigationError(
+        NO_VALID_PATH,
+        f'no path from {_text(start)} to {_text(goal)}: all ways are narrower than the robot, '
+        f'or lead through what nobody knows; choose a goal that can be reached',
+    )
 
 
 def smoothed(costmap: Costmap, path: list[Pose], settings: PlannerSettings) -> list[Pose]:
@@ -77,7 +92,7 @@ def smoothed(costmap: Costmap, path: list[Pose], settings: PlannerSettings) -> l
     if len(path) < 3:
         return path
     points = np.array([(each.x, each.y) for each in path])
-    return _turned(_smoothed(costmap, points, settings), path[-1])
+    return turned(_smoothed(costmap, points, settings), path[-1])
 
 
 def _text(pose: Pose) -> str:
@@ -211,7 +226,7 @@ def _smoothed(costmap: Costmap, points: Points, settings: PlannerSettings) -> Po
     return way
 
 
-def _turned(points: Points, goal: Pose) -> list[Pose]:
+def turned(points: Points, goal: Pose) -> list[Pose]:
     """Return poses that look to the next one; the last one is the goal."""
     ahead = np.diff(points, axis=0)
     yaws = np.arctan2(ahead[:, 1], ahead[:, 0])

@@ -105,6 +105,7 @@ from amr_description.navigation.footprint import (
     Points,
     read_footprint,
 )
+from amr_description.navigation.plugins import find_follower, find_planner
 from amr_description.navigation.ros.behavior_servers import BehaviorServers, duration, feedback_of
 from amr_description.navigation.ros.costmap_services import CostmapServices
 from amr_description.navigation.ros.goals import (
@@ -182,6 +183,8 @@ class NavigatorNode(Node):
     def __init__(self) -> None:
         super().__init__('navigator')
         self._settings = declare(self, NavigatorParameters)
+        find_planner(self._settings.planner)  # which are refused now, or never
+        find_follower(self._settings.pursuit)
         self._corners = self._footprint()
         self._outline = outline(self._corners, _OUTLINE_SPACING)
         self._surroundings = Surroundings(self, self._settings, inscribed_radius(self._corners))
@@ -380,9 +383,10 @@ class NavigatorNode(Node):
             else self._surroundings.pose()
         )
         path: list[Pose] = []
+        plan = find_planner(self._settings.planner)
         for target in targets:
             end = self._surroundings.goal(target)
-            path += planner.plan(costmap, start, end, self._settings.planner)
+            path += plan(costmap, start, end)
             start = end
         return path
 

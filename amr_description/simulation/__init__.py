@@ -11,6 +11,7 @@ Simulations: what can be done with one, here without ROS, in ``testing/`` over i
 ``local_manager.py``       … its controller manager
 ``plain_controllers.py``   … its controllers, and their ports
 ``films.py``               … films and plots of it
+``goal_drive.py``          … a robot of it driven to a goal, by a planner of one's own, too
 ``alterations.py``         … what a test changes in it: physics, sensors, motors, commands
 ``command.py``             … the command ``amr``: a robot on a page
 ``playing.py``             … time that passes by the wall clock

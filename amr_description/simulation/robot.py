@@ -15,6 +15,7 @@ from amr_description.control.samples import (
 )
 from amr_description.errors import SimulationError
 from amr_description.model.frames import conjugate, rotate, Transform
+from amr_description.model.robot import Robot as RobotDescription
 from amr_description.model.sensors import frame_in
 from amr_description.sim.robot_view import RobotView
 from amr_description.simulation.api import RobotApi
@@ -64,7 +65,8 @@ class Robot(RobotApi):
         self.manager = manager
         """Its controllers can be loaded, switched and so on."""
         self._view, self._spawned, self._sensors = view, spawned, sensors
-        self._root_frame = frame_in(spawned.namespace, spawned.robot.root.name)
+        self.root_frame = frame_in(spawned.namespace, spawned.robot.root.name)
+        """Of TF."""
         self.topics = topics
         """Of its active controllers, when it was spawned."""
         self.sensor_topics: Mapping[str, str] = sensors.kinds
@@ -72,6 +74,11 @@ class Robot(RobotApi):
         self._odometry: tuple[Any, Any] = (None, None)
         """The newest that was read: its sample, and what it says."""
         self._outputs: Mapping[str, Newest] = manager.outputs if manager else {}
+
+    @property
+    def description(self) -> RobotDescription:
+        """Its links and joints."""
+        return self._view.description
 
     def twist(self, linear: float, angular: float) -> TwistSample:
         """Return a command, m/s and rad/s, for :attr:`command_topic`."""
@@ -140,7 +147,7 @@ class Robot(RobotApi):
 
         Raises SimulationError: there is no such frame, or nothing connects the two.
         """
-        places: dict[str, dict[str, Transform]] = {self._root_frame: {}}
+        places: dict[str, dict[str, Transform]] = {self.root_frame: {}}
         for parent, child, place in self._places():
             places.setdefault(child, {})[parent] = place
             places.setdefault(parent, {})[child] = place.inverse()

@@ -102,9 +102,11 @@ KINDS = {
 
 
 @contextmanager
-def site_with_a_navigator():
+def site_with_a_navigator(**parameters):
     """A :class:`Site` whose navigator has no map yet."""
-    rclpy.init(args=['--ros-args', '-p', 'source_timeout:=0.0', '-p', 'transform_tolerance:=5.0'])
+    given = {'source_timeout': '0.0', 'transform_tolerance': '5.0', **parameters}
+    words = [word for name, value in given.items() for word in ('-p', f'{name}:={value}')]
+    rclpy.init(args=['--ros-args', *words])
     try:
         navigator = NavigatorNode()
         with spinning(navigator):  # which destroys it, too

@@ -91,6 +91,8 @@ ARROWS = {
         'hardware',
         'sim',
         'viewer',  # its page
+        'navigation',  # drives to goals
+        'maps',
         'bag',
         'cdr',
         'messages',

@@ -50,6 +50,7 @@ _ABOUT_MAP = (
     'what is on /map: the map of the world (world), that of a .yaml file, or nothing (none)'
 )
 _ABOUT_NAVIGATOR = 'whether the navigator of this package drives to goals, as Nav2 would'
+_ABOUT_PARAMETERS = 'parameters of the navigator that replace those of its file'
 _ABOUT_LOCALIZATION = (
     'who publishes map -> odom: truth_localizer (truth), scan_localizer (scan), or another (none)'
 )
@@ -67,6 +68,7 @@ def navigation(
     map: Annotated[str, _ABOUT_MAP] = 'world',
     localization: Annotated[str, _ABOUT_LOCALIZATION] = 'truth',
     navigator: Annotated[bool, _ABOUT_NAVIGATOR] = True,
+    navigator_params: Annotated[str, _ABOUT_PARAMETERS] = '',
     twist_mux: Annotated[str, 'inputs and locks of twist_mux'] = MUX,
     **others: Any,
 ) -> Stack:
@@ -91,7 +93,10 @@ def navigation(
     mux = _mux(robot.velocity_topic, str(path_of(twist_mux, 'twist_mux')))
 
     # 4. What drives to goals, unless Nav2 does.
-    drives = [_navigator(robot, is_amr, has_mux=bool(mux))] if navigator else []
+    files = [str(path_of(NAVIGATOR))] if is_amr else []
+    if navigator_params:
+        files.append(str(path_of(navigator_params, 'navigator_params')))
+    drives = [_navigator(robot, is_amr, files, has_mux=bool(mux))] if navigator else []
     if drives and map == 'world':
         drives = _on_obstacle_map(drives[0], world, others['x'], others['y'])
 
@@ -155,9 +160,10 @@ def _localizer(
     ]
 
 
-def _navigator(robot: SimulatedRobot, is_amr: bool, *, has_mux: bool) -> Node:
+def _navigator(robot: SimulatedRobot, is_amr: bool, files: list[str], *, has_mux: bool) -> Node:
     """
-    Return the node that drives to goals; a robot that is not amr is taken as round.
+    Return the node that drives to goals, by these parameter files; a robot that is not amr is
+    taken as round.
 
     Beside a mux, which takes ``/cmd_vel_teleop`` to the wheels as it is, what is to be kept from
     obstacles has a topic of its own.
@@ -174,7 +180,6 @@ def _navigator(robot: SimulatedRobot, is_amr: bool, *, has_mux: bool) -> Node:
         with suppress(DescriptionError):  # robot_state_publisher says where
             parameters['robot_radius'] = horizontal_reach(parse(robot.description))
         parameters['robot_base_frame'] = _base_frame(robot.description)
-    files = [str(path_of(NAVIGATOR))] if is_amr else []
     return Node(
         'navigator',
         parameters=[*files, parameters],

@@ -23,7 +23,7 @@ from amr_description.navigation.drive import (
     NavigationDriveSettings,
 )
 from amr_description.navigation.footprint import inscribed_radius, outline
-from amr_description.navigation.regulated_pure_pursuit import PursuitSettings
+from amr_description.navigation.path_follower import PursuitSettings
 from amr_description.testing.simulation import Simulation
 
 PERIOD = 0.05

@@ -81,6 +81,13 @@ def test_commands_go_through_the_mux_to_the_wheels():
     assert node(with_file, 'twist_mux').parameters[0] == str(ROOT / 'config/controllers.yaml')
 
 
+def test_parameters_of_a_users_file_come_after_those_of_the_navigator():
+    mine = str(ROOT / 'config/ekf.yaml')
+    first, second, _ = node(stack(navigator_params=mine), 'navigator').parameters
+    assert first.endswith('config/navigator.yaml')
+    assert second == mine
+
+
 def test_the_map_is_that_of_the_world_seen_from_the_start():
     maps = node(stack(world='walls', x='1.5', y='-0.5', navigator='false'), 'map_of_world')
     assert maps.arguments == ['walls', '--publish', '--start', '1.5', '-0.5']
@@ -209,6 +216,7 @@ def test_everything_starts_before_it_is_ready():
             '^localization:=scan matches scans against a map, and map:=none$',
         ),
         ({'twist_mux': 'absent.yaml'}, 'absent.yaml'),
+        ({'navigator_params': 'absent.yaml'}, 'absent.yaml'),
         ({'rtf': '-1'}, '^rtf:=-1.0: a real-time factor is 0'),
     ],
 )

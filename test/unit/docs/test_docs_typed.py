@@ -67,6 +67,9 @@ ELSEWHERE = {
     ('navigation.md', 'ros2 launch nav2_bringup'): 'on another machine, with Nav2',
     ('navigation.md', 'ros2 topic pub -1 /goal_pose'): 'on another machine, with Nav2',
     ('navigation.md', 'ros2 launch slam_toolbox'): 'on another machine, with slam_toolbox',
+    ('your_own_planner.md', 'scripts/run navigation navigator_params:='): (
+        'test/unit/bringup/test_bringup_navigation.py'
+    ),
     ('ros2_control.md', 'ros2 launch amr_description mock'): (
         'test/system/bringup/test_bringup_runs.py'
     ),
