@@ -42,13 +42,13 @@ FEW_LINES = 80
 # interactive_markers, turtlebot4_navigation. Of helpers: fakes of processes, clients of markers,
 # a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
-    'modules': 868,
-    'code lines': 100_908,
+    'modules': 871,
+    'code lines': 101_154,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_542,
+    'code lines of helpers in test files': 27_606,
 }
 
 BASE = {
