@@ -16,7 +16,7 @@ three seconds, its controllers brought up, driven and moved, and compared with t
 ``moving.py``        joints, by commands and trajectories
 ``findings.py``      what is found, as data
 ``parts.py``         controllers that stay out, and whether the robot lacks them
-``posture.py``       whether it stands, falls, tips over or explodes
+``posture.py``       whether it stands, falls, tips over or explodes; what legs can do
 ``verdict.py``       what a robot did: as told, off, or not at all, and why; a row of the table
 ``launch_trial.py``  one launch file: whether it comes up, and its robot drives
 ``launch_command.py``  launch files one after the other, their options and their table

@@ -8,7 +8,7 @@ What is asked of a joint: 0.3 rad or 5 cm, a fifth of its range at most, to the 
 room.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 import math
 from typing import Any
@@ -34,6 +34,8 @@ _ANGLE, _LENGTH = 0.3, 0.05
 """rad and m."""
 _SHARE = 0.2
 """Of the range of a joint."""
+_MIDDLE = 0.01
+"""Of the range of a joint; as far from its middle it has as much room to both sides."""
 _SECONDS, _SETTLING = 2.0, 1.5
 """s: a trajectory's duration, and the time after it."""
 _START, _LONGEST_START, _STEADY = 0.5, 15.0, 0.02
@@ -66,7 +68,8 @@ def offset_of(joint: Joint | None, position: float) -> float:
         return far
     above, below = joint.limit.upper - position, position - joint.limit.lower
     far = min(far, _SHARE * (joint.limit.upper - joint.limit.lower))
-    return far if above >= below else -far
+    # In the middle but for a hair all go the same way: legs that go apart push against the ground.
+    return far if above >= below - _MIDDLE * (above + below) else -far
 
 
 class JointStates:
@@ -105,9 +108,11 @@ class Mover:
         joints: Mapping[str, Joint],
         states: JointStates,
         share: float = 1.0,
+        held: Collection[str] = (),
     ) -> None:
-        """``share``: of how far joints are moved else."""
+        """``share``: of how far joints are moved else; ``held``: joints that are not moved."""
         self._share = share
+        self._held = frozenset(held)
         self._sim = sim
         self._controller = controller
         self._joints = joints
@@ -159,9 +164,14 @@ class Mover:
         states = self._states.read()
         starts = {name: states[name].position for name in self._names}
         return {
-            name: (start, start + self._share * offset_of(self._joints.get(name), start))
+            name: (start, start + self._share_of(name) * offset_of(self._joints.get(name), start))
             for name, start in starts.items()
         }
+
+    def _share_of(self, name: str) -> float:
+        """Return the share of a joint, of which all that are asked of are not held."""
+        is_held = name in self._held and not self._held.issuperset(self._names)
+        return 0.0 if is_held else self._share
 
     def _by_trajectory(self) -> MotionResult:
         targets = self._targets()
@@ -234,6 +244,7 @@ class Mover:
         reached = {
             name: (target - start, states[name].position - start)
             for name, (start, target) in targets.items()
+            if target != start or self._share_of(name)
         }
         return self._worst(what, reached)
 

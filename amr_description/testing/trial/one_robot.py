@@ -23,7 +23,7 @@ import warnings
 
 from amr_description.errors import AmrError
 from amr_description.model.gazebo.translation import translate
-from amr_description.model.robot import held_without_commands, Joint, JointType, Robot
+from amr_description.model.robot import JointType, Robot
 from amr_description.model.urdf import parse
 from amr_description.simulation.given import GivenDescription
 from amr_description.testing.simulation import Simulation
@@ -46,15 +46,13 @@ from amr_description.testing.trial.inputs import (
 )
 from amr_description.testing.trial.moving import is_moved, JointStates, Mover
 from amr_description.testing.trial.parts import split
-from amr_description.testing.trial.posture import Posture
+from amr_description.testing.trial.posture import Posture, spreading_joints, stands_on_legs
 from amr_description.testing.trial.verdict import cause_of, describe, explanations
 from amr_description.text import one_line, quote_all
 
 _PLANAR = 'GazeboPlanarMove'
 _OF_LEGS = 0.2
 """As a share of how far others are moved: two legs that bend as far as an arm fall."""
-_LEG = 3
-"""So many joints or more has a leg."""
 
 
 @dataclass(frozen=True)
@@ -234,7 +232,8 @@ class Trial:
             try:
                 with closing(JointStates(sim, active)) as states:
                     share = _OF_LEGS if stands_on_legs(robot) else 1.0
-                    mover = Mover(sim, controller, joints, states, share)
+                    held = spreading_joints(robot)
+                    mover = Mover(sim, controller, joints, states, share, held)
                     self.found.motions.append(mover.move())
             except LookupError as error:
                 self.found.undriven.append(f'{controller.name}: {error}')
@@ -297,23 +296,6 @@ def mover_of_body(active: Sequence[Active]) -> str:
     if not last.claimed or last.type.endswith(_PLANAR):
         return ''
     return next((each.name for each in others if each.type.endswith(_PLANAR)), '')
-
-
-def stands_on_legs(robot: Robot) -> bool:
-    """Return whether it has two limbs or more, of joints that hold it up."""
-    held = held_without_commands(robot)
-
-    def count(joint: Joint) -> int:
-        return (joint.name in held) + sum(map(count, robot.child_joints(joint.child)))
-
-    stack, limbs = [robot.root.name], 0
-    while stack:
-        for joint in robot.child_joints(stack.pop()):
-            if joint.type is JointType.FIXED:
-                stack.append(joint.child)
-            else:
-                limbs += count(joint) >= _LEG
-    return limbs > 1
 
 
 def wheelbase_of(robot: Robot, controller: str) -> float:

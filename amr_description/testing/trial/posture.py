@@ -1,10 +1,19 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""How a robot is there, at rest and after each motion: upright, on something, and finite."""
+"""
+How a robot is there, at rest and after each motion: upright, on something, and finite.
+
+One that stands on legs is asked for what these can do while they stand. A leg that bends in its
+own plane lifts or lowers the robot, and its foot stays where it is. A hip that spreads legs pushes
+feet over the ground: what holds them, friction times the weight, is as much as many motors can do.
+So joints that turn a leg about another axis than across are held.
+"""
 
 import math
 
 from amr_description.model.frames import rotate
+from amr_description.model.kinematics import link_poses
+from amr_description.model.robot import held_without_commands, Joint, JointType, Robot
 from amr_description.simulation.readings import Motion
 from amr_description.testing.simulation import Simulation
 from amr_description.testing.trial.bring_up import logged
@@ -30,6 +39,12 @@ _SAMPLE = 0.1
 _STRAIGHT_UP = (0.0, 0.0, 1.0)
 _FROZEN = 'is frozen as it was'
 _TOUCHES_NOTHING = 'no shape of it touches anything'
+_LEG = 3
+"""So many joints or more has a leg."""
+_ACROSS = 0.7
+"""Of an axis, along y of the root; more than half of its turn is in the leg's plane."""
+_REACH = 0.1
+"""m; what ends so much higher than the lowest limb is no leg."""
 
 
 def tilt_between(before: Motion, now: Motion) -> float:
@@ -114,4 +129,46 @@ def unrest(linear: float, angular: float) -> str:
     """Return how a robot does not rest; its speeds at the end are in m/s and rad/s."""
     return (
         f'it still moves after {REST_WITHIN:g} s: {linear:.3f} m/s, {angular:.3f} rad/s at the end'
+    )
+
+
+# --- legs ---------------------------------------------------------------------------------------
+
+
+def _limbs_of(robot: Robot) -> list[list[Joint]]:
+    """Return the joints of each limb that has as many as a leg and holds itself."""
+    held = held_without_commands(robot)
+
+    def chain(joint: Joint) -> list[Joint]:
+        own = [joint] if joint.name in held else []
+        return own + [each for child in robot.child_joints(joint.child) for each in chain(child)]
+
+    stack, limbs = [robot.root.name], []
+    while stack:
+        for joint in robot.child_joints(stack.pop()):
+            if joint.type is JointType.FIXED:
+                stack.append(joint.child)
+            elif len(limb := chain(joint)) >= _LEG:
+                limbs.append(limb)
+    return limbs
+
+
+def stands_on_legs(robot: Robot) -> bool:
+    """Return whether it has two limbs or more, of joints that hold it up."""
+    return len(_limbs_of(robot)) > 1
+
+
+def spreading_joints(robot: Robot) -> frozenset[str]:
+    """Return the joints of legs that would push feet over the ground; none without legs."""
+    limbs = _limbs_of(robot)
+    if len(limbs) < 2:
+        return frozenset()
+    poses = link_poses(robot)
+    ends = [min(poses[joint.child].translation[2] for joint in limb) for limb in limbs]
+    return frozenset(
+        joint.name
+        for limb, end in zip(limbs, ends, strict=True)
+        if end <= min(ends) + _REACH
+        for joint in limb
+        if abs(rotate(poses[joint.child].rotation, joint.axis)[1]) < _ACROSS
     )

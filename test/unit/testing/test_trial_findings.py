@@ -27,8 +27,15 @@ from amr_description.testing.trial.findings import (
 )
 from amr_description.testing.trial.inputs import declared_drives
 from amr_description.testing.trial.moving import Mover, offset_of
-from amr_description.testing.trial.one_robot import check_of, mover_of_body, stands_on_legs
-from amr_description.testing.trial.posture import has_tipped, tilt_between, tipped, unrest
+from amr_description.testing.trial.one_robot import check_of, mover_of_body
+from amr_description.testing.trial.posture import (
+    has_tipped,
+    spreading_joints,
+    stands_on_legs,
+    tilt_between,
+    tipped,
+    unrest,
+)
 from amr_description.testing.trial.verdict import (
     cause_of,
     explanations,
@@ -173,15 +180,17 @@ def test_of_joints_the_cause_is_not_sought_in_odometry():
     assert cause_of(motion).startswith('its joints do not follow')
 
 
-def limbs(count, kind='revolute', root='base'):
-    """A robot of some limbs of three joints each."""
+def limbs(count, kind='revolute', root='base', lowest=2):
+    """A robot of some limbs of three joints each, the first of which turns about x."""
     parts = [f'<robot name="r"><link name="{root}"/>']
     for limb in range(count):
         for number in range(3):
             parent = f'l{limb}{number - 1}' if number else root
             parts.append(
                 f'<link name="l{limb}{number}"/><joint name="j{limb}{number}" type="{kind}">'
-                f'<parent link="{parent}"/><child link="l{limb}{number}"/><axis xyz="0 1 0"/>'
+                f'<parent link="{parent}"/><child link="l{limb}{number}"/>'
+                f'<origin xyz="0 0 {-0.2 if limb < lowest else 0.2}"/>'
+                f'<axis xyz="{"0 1 0" if number else "1 0 0"}"/>'
                 '<limit lower="-1" upper="1" effort="9" velocity="9"/></joint>'
             )
     return parse(''.join([*parts, '</robot>']))
@@ -192,6 +201,26 @@ def test_who_stands_on_legs_is_moved_less_far():
     assert not stands_on_legs(limbs(1))  # an arm
     assert not stands_on_legs(limbs(4, kind='continuous'))  # wheels
     assert not stands_on_legs(limbs(2, root='world'))
+
+
+def test_of_legs_that_stand_no_joint_is_moved_that_pushes_feet_apart():
+    """Hips about x spread the legs, thighs and calves about y bend them; arms are free."""
+    assert spreading_joints(limbs(4, lowest=4)) == {'j00', 'j10', 'j20', 'j30'}
+    assert spreading_joints(limbs(4, lowest=2)) == {'j00', 'j10'}  # of a humanoid
+    assert spreading_joints(limbs(1)) == frozenset()  # an arm
+
+
+def test_what_is_held_is_asked_to_stay_unless_there_is_nothing_else():
+    states = SimpleNamespace(read=lambda: {'hip': State(0.1, 0.0, 0.0), 'knee': State(0, 0, 0)})
+    joints = ('hip/position', 'knee/position')
+
+    def asked(*claimed):
+        legs = Active('legs', 'x/JointTrajectoryController', '/', claimed, False)
+        mover = Mover(SimpleNamespace(), legs, {}, states, 0.2, frozenset({'hip'}))
+        return {name: round(b - a, 3) for name, (a, b) in mover._targets().items()}
+
+    assert asked(*joints) == {'hip': 0.0, 'knee': 0.06}
+    assert asked(joints[0]) == {'hip': 0.06}
 
 
 def test_beside_a_plugin_that_moves_the_body_wheels_only_turn():
@@ -269,6 +298,7 @@ def test_the_way_is_in_the_axes_of_the_start():
     [
         (JointType.REVOLUTE, (-2.0, 2.0), 0.0, 0.3),
         (JointType.REVOLUTE, (-2.0, 2.0), 1.0, -0.3),
+        (JointType.REVOLUTE, (-2.0, 2.0), 1e-6, 0.3),  # as its neighbour at -1e-6
         (JointType.REVOLUTE, (0.0, 0.5), 0.0, 0.1),
         (JointType.PRISMATIC, (0.0, 1.0), 0.0, 0.05),
         (JointType.CONTINUOUS, None, 5.0, 0.3),
