@@ -10,7 +10,7 @@ The parameter file of a robot is, in this order,
 2. the file of its name beside it: ``robot.yaml`` for ``robot.urdf``;
 3. what the plugin in its ``<gazebo>`` block names: the simulator reads that by itself;
 4. the one file in ``config/`` of a package that the description speaks of (its meshes, the name of
-   its hardware plugin) that lists controllers;
+   its hardware plugin) that lists controllers, and those of no other robot's joints;
 5. for a robot with ``<ros2_control>`` and none of these, parameters of this program's own: a
    joint_state_broadcaster, and a joint_trajectory_controller for its joints with a position
    command.
@@ -42,6 +42,12 @@ _PACKAGES = (
     re.compile(r'<plugin>\s*([\w-]+)(?:/|::)'),
 )
 _JOINT = re.compile(r'<joint\s+name="([^"]+)"\s*>(.*?)</joint>', re.DOTALL)
+_NAMED_JOINT = re.compile(r'<joint\s[^>]*?\bname="([^"]+)"')
+_LISTED_JOINTS = re.compile(
+    r'^\s*\w*(?:joints?|wheel_names|joints?_names?)\s*:((?:[^\n]*\n)(?:\s*-[^\n]*\n)*)',
+    re.MULTILINE,
+)
+"""The values of parameters that name joints."""
 _BLOCK = re.compile(r'<ros2_control\b.*?</ros2_control>', re.DOTALL)
 _JOINT_PLUGINS = re.compile(
     r'joint.?(?:pose.?)?trajectory|joint.?(?:position.?|velocity.?)?controller', re.IGNORECASE
@@ -159,7 +165,9 @@ def parameters_of(
         return TrialParameters(tuple(paths), DESCRIPTION)
     for package in _packages(text):
         listing = [
-            each for each in sorted((package / 'config').glob('*.yaml')) if lists_controllers(each)
+            each
+            for each in sorted((package / 'config').glob('*.yaml'))
+            if lists_controllers(each) and not _is_of_another(each, text)
         ]
         if len(listing) == 1:
             return TrialParameters((listing[0],), f'package {package.name}')
@@ -169,6 +177,13 @@ def parameters_of(
     path = folder / 'controllers.yaml'
     path.write_text(_own_parameters(joints), encoding='utf-8')
     return TrialParameters((path,), 'this program')
+
+
+def _is_of_another(file: Path, text: str) -> bool:
+    """Return whether a parameter file lists joints, and none of them is of a robot (its URDF)."""
+    listed = _LISTED_JOINTS.findall(_text(file))
+    words = {word for each in listed for word in re.findall(r'[\w/.-]+', each)}
+    return bool(words) and words.isdisjoint(_NAMED_JOINT.findall(text))
 
 
 def _given(robot: str, given: Sequence[str]) -> tuple[Path, ...]:

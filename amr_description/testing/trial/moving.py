@@ -39,7 +39,10 @@ _MIDDLE = 0.01
 _SECONDS, _SETTLING = 2.0, 1.5
 """s: a trajectory's duration, and the time after it."""
 _START, _LONGEST_START, _STEADY = 0.5, 15.0, 0.02
-"""s between two looks at speeds, s until they are judged, and what is steady, of the command."""
+"""
+s between two looks at speeds, s until they are judged, and what is steady: that share of the
+command, or of what still lacks of it.
+"""
 _TOLERANCE = 0.1
 """Of what is asked of a joint."""
 _BROADCASTER = 'JointStateBroadcaster'
@@ -276,7 +279,7 @@ class Mover:
             }
             is_there = all(
                 abs(reached[n] - v) <= _STEADY * abs(v)
-                or abs(reached[n] - last[n]) <= _STEADY * abs(v)
+                or abs(reached[n] - last[n]) <= _STEADY * abs(v - reached[n])
                 for n, v in speeds.items()
             )
             if is_there or time >= end:

@@ -243,6 +243,30 @@ def test_wheels_that_were_steered_are_straight_again_for_what_is_tried_next(monk
     assert sent == [[pytest.approx(0.4)], [0.1]] and len(passed) == 2
 
 
+@pytest.mark.parametrize(('time_constant', 'expected'), [(0.1, 0.3), (3.0, 0.3), (math.inf, 0.0)])
+def test_joints_that_turn_something_heavy_are_given_the_time_they_need(time_constant, expected):
+    clock = [0.0]
+
+    def position():
+        t = clock[0]  # of a speed that grows to what is commanded
+        if math.isinf(time_constant):
+            return 0.0
+        return 0.3 * (t - time_constant * (1.0 - math.exp(-t / time_constant)))
+
+    class Sim(SimpleNamespace):
+        time = property(lambda _: clock[0])
+
+        def run(self, seconds):
+            clock[0] += seconds
+
+    states = SimpleNamespace(read=lambda: {'axle': State(position(), 0.0, 0.0)})
+    turned = Active('axle', 'x/JointGroupVelocityController', '/', ('axle/velocity',), False)
+    mover = Mover(Sim(), turned, {}, states)
+    mover._command = lambda values: None
+    assert mover.move().truth == pytest.approx(expected, rel=0.1, abs=1e-6)
+    assert clock[0] < 16.0
+
+
 SWAPPED = 'WARN: c.yaml:9: drive: left and right wheels are swapped: turns are inverted'
 SLIDES = 'WARN: c.yaml:9: drive: the wheel cannot roll: it slides'
 OTHERS = 'WARN: c.yaml:9: overdrive: the wheel cannot roll: it slides'

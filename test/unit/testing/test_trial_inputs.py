@@ -103,7 +103,11 @@ def test_else_the_one_file_of_a_package_that_the_description_speaks_of(prefix, t
     write(config / 'joystick.yaml', 'joy: {ros__parameters: {rate: 10}}\n')
     file = write(config / 'arm.yaml', MANAGER)
     assert find(tmp_path, CONTROLLED).told == (file,)
-    write(config / 'second.yaml', 'drive: {ros__parameters: {type: c/D}}\n')
+    others = f'{MANAGER}drive: {{ros__parameters: {{type: c/D}}}}\nx:\n  ros__parameters:\n'
+    for shape in ('    joints: [wrist, knee]\n', '    joints:\n    - wrist\n    - knee\n'):
+        write(config / 'second.yaml', others + shape)  # another robot's
+        assert find(tmp_path, CONTROLLED).told == (file,)
+    write(config / 'second.yaml', others + '    joints: [wrist, elbow]\n')
     assert find(tmp_path, CONTROLLED).by == 'this program'
 
 
