@@ -195,6 +195,7 @@ class Spawn:
     yaw: float
     like: str | None  #: the robot whose description and active controllers it gets
     urdf: Document | None = None  #: its description, where it is like no other
+    fixed: bool = False  #: whether its root link is fixed to the world, as that of an arm
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * A URDF file that is dropped onto the view stands in the world where it was dropped; where a description
- * is only looked at, it takes its place.
+ * is only looked at, it takes its place. With Shift held its root link is fixed to the world, as that of an arm.
  */
 import { ask, type App } from './app';
 import { freeName } from './format';
@@ -29,14 +29,14 @@ export function acceptUrdf(
     const [file] = event.dataTransfer?.files ?? [];
     const [x, y] = placeAt(event.clientX, event.clientY) ?? [0, 0];
     if (file !== undefined) {
-      void takeDropped(app, file, [x, y, HEIGHT], robots());
+      void takeDropped(app, file, [x, y, event.shiftKey ? 0 : HEIGHT], robots(), event.shiftKey);
     }
   });
 }
 
 /** Spawn the robot of a file, or show it; what is wrong with it becomes a notice. */
 export async function takeDropped(
-  app: App, file: File, position: Vector, robots: readonly Footprint[] = [],
+  app: App, file: File, position: Vector, robots: readonly Footprint[] = [], fixed = false,
 ): Promise<void> {
   const isSmall = file.size <= LARGEST;
   const urdf = isSmall ? await file.text() : '';
@@ -49,7 +49,7 @@ export async function takeDropped(
   } else if (simulator !== null) {
     const name = freeName(simulator.entities, entityName(urdf));
     const namespace = `/${name}`;
-    const what = { simulator: simulator.id, name, namespace, position, yaw: 0, like: null, urdf };
+    const what = { simulator: simulator.id, name, namespace, position, yaw: 0, like: null, urdf, fixed };
     await ask(app, { type: 'spawn', ...what });
   } else if (robot?.joint_publisher != null) {
     const node = `${robot.id.replace(/\/$/, '')}/robot_state_publisher`;
@@ -76,7 +76,7 @@ function entityName(urdf: string): string {
 /** Why a file cannot be taken; null: it may be a URDF, of which others say the rest. */
 function faultOf(name: string, text: string): string | null {
   if (/xmlns:xacro\s*=/.test(text)) {
-    return `it is xacro; \`ros2 run xacro xacro ${name} > robot.urdf\` makes a URDF of it`;
+    return `it is xacro; \`ros2 run xacro xacro ${name} NAME:=VALUE … > robot.urdf\` makes a URDF of it`;
   }
   return /<robot\b/.test(text) ? null : 'it is no URDF: there is no <robot> in it';
 }

@@ -1018,6 +1018,8 @@ export interface Spawn {
   like: string | null;
   /** its description, where it is like no other */
   urdf?: string | null;
+  /** whether its root link is fixed to the world, as that of an arm */
+  fixed?: boolean;
 }
 
 /**

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { takeDropped } from '../src/drop';
+import { acceptUrdf, takeDropped } from '../src/drop';
 import { connectedApp, graphOf, robotInfo, type TestApp } from './page';
 
 function dropped(text: string, entities: string[] | null): { app: TestApp; done: Promise<void> } {
@@ -19,9 +19,26 @@ test('a URDF that is dropped stands in the world, under a name that is free', as
   assert.deepEqual(app.sent, [
     {
       type: 'spawn', id: 1, simulator: '/sim', name: 'my_arm1', namespace: '/my_arm1',
-      position: [1, 2, 0.2], yaw: 0, like: null, urdf,
+      position: [1, 2, 0.2], yaw: 0, like: null, urdf, fixed: false,
     },
   ]);
+});
+
+test('with Shift held it is fixed to the world where it was dropped', async () => {
+  const app = connectedApp();
+  const simulators = [{ id: '/sim', entities: [], world: '', worlds: [] }];
+  app.say({ type: 'graph', robots: [], simulators, hint: null, sensors: [], navigators: [] });
+  const element = document.createElement('div');
+  acceptUrdf(app, element, () => [3, 4, 0], () => []);
+  for (const shiftKey of [true, false]) {
+    const drop = Object.assign(new Event('drop', { cancelable: true }), {
+      shiftKey, dataTransfer: { files: [new File(['<robot name="arm"/>'], 'arm.urdf')] },
+    });
+    element.dispatchEvent(drop);
+  }
+  await new Promise((resolve) => setTimeout(resolve));
+  const places = app.sent.map((each) => each.type === 'spawn' && [each.fixed, each.position]);
+  assert.deepEqual(places, [[true, [3, 4, 0]], [false, [3, 4, 0.2]]]);
 });
 
 test('a name that no robot can have becomes one', async () => {

@@ -28,6 +28,7 @@ from rclpy.node import Node
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, PartlyDoneError, ViewerError
+from amr_description.model.fixing import fixed_to_world
 from amr_description.model.frames import Vector
 from amr_description.viewer.backend import Handlers, Hold, Watched
 from amr_description.viewer.bags import StartRecording, StopRecording
@@ -326,6 +327,9 @@ class GraphBackend:
 
     async def _spawn(self, request: Spawn, _: str) -> str:
         before = dict(self._controllers)  # a robot in the place of another one begins without any
+        if request.fixed:
+            urdf = request.urdf or self._description_of(request.like or '')
+            request = replace(request, urdf=fixed_to_world(urdf))
         async with self._simulator(request.simulator) as simulator:
             done = await simulator.spawn_asked(request)
         return await self._spawned_by(request, done, before)

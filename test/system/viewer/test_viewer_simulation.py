@@ -370,7 +370,13 @@ def test_a_page_spawns_a_description_of_its_own(page, ask, driven):
     assert not ok
     ok, message = ask.simulator('spawn', **(new | {'name': 'other'}))
     assert (ok, message) == (False, 'a robot to spawn has a URDF, or is like another one')
-    assert ask.simulator('delete', name='crate')[0]
+    bolted = new | {'name': 'bolted', 'namespace': '/bolted', 'position': [-3.0, 0.0, 1.5]}
+    assert not ask.simulator('spawn', urdf='<robot', fixed=True, **bolted)[0]
+    assert ask.simulator('spawn', urdf=crate, fixed=True, **bolted)[0]
+    model = page.wait(lambda: next((m for m in page.of('model') if m['robot'] == '/bolted'), None))
+    assert model['root'] == 'world'  # it does not fall
+    for name in ('crate', 'bolted'):
+        assert ask.simulator('delete', name=name)[0]
 
 
 def test_a_page_changes_the_world_around_its_robots(page, ask, driven):
