@@ -163,9 +163,11 @@ _OF_ANY = re.compile(r'they slip|scrub|is not on all its wheels|is clamped|out o
 """What is said of a robot, or of its joints, and not of a controller."""
 _REASONS: tuple[tuple[re.Pattern[str], _Explains], ...] = (
     (
-        re.compile(r'swapped|in the order|does not steer to the left'),
+        re.compile(r'swapped|does not steer to the left'),
         lambda what, share, _: what == 'turn' and share < 0.0,
     ),
+    # The wheel outside turns slower than that inside, and is steered more: they turn it less.
+    (re.compile(r'in the order'), lambda what, share, _: what == 'turn' and share < 1.0),
     (re.compile(r'turns? backwards|the other way'), lambda what, share, _: share < 1.0),
     (re.compile(r'scrub'), lambda what, share, _: what == 'turn' and 0.0 <= share < 1.0),
     (re.compile(r'they slip|slides'), lambda what, share, _: 0.0 <= share < 1.0),

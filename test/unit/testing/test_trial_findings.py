@@ -268,6 +268,7 @@ def test_joints_that_turn_something_heavy_are_given_the_time_they_need(time_cons
 
 
 SWAPPED = 'WARN: c.yaml:9: drive: left and right wheels are swapped: turns are inverted'
+ORDER = 'WARN: c.yaml:9: drive: the traction joints are not in the order right, left'
 SLIDES = 'WARN: c.yaml:9: drive: the wheel cannot roll: it slides'
 OTHERS = 'WARN: c.yaml:9: overdrive: the wheel cannot roll: it slides'
 CASTER = 'WARN: cart.urdf: "caster" slides and holds the robot: its wheels pull less: they slip'
@@ -279,8 +280,8 @@ CLAMPED = "WARN: robot 'x': joint 'w': the velocity command 9 is beyond 3.5 and 
 @pytest.mark.parametrize(
     ('what', 'share', 'explained_by'),
     [
-        ('turn', -1.0, [SWAPPED]),
-        ('turn', 0.6, [SLIDES, CASTER, SCRUB, CLAMPED]),
+        ('turn', -1.0, [SWAPPED, ORDER]),
+        ('turn', 0.6, [ORDER, SLIDES, CASTER, SCRUB, CLAMPED]),
         ('forward', 0.6, [SLIDES, CASTER, CLAMPED]),
         ('forward', 2.0, [RADIUS]),
         ('turn', 1.4, [RADIUS]),
@@ -289,7 +290,7 @@ CLAMPED = "WARN: robot 'x': joint 'w': the velocity command 9 is beyond 3.5 and 
     ],
 )
 def test_only_what_explains_a_deviation_counts(what, share, explained_by):
-    lines = [SWAPPED, SLIDES, OTHERS, 'INFO: drive: scrub', 'WARN: thin', CASTER, SCRUB]
+    lines = [SWAPPED, ORDER, SLIDES, OTHERS, 'INFO: drive: scrub', 'WARN: thin', CASTER, SCRUB]
     lines += [RADIUS, CLAMPED]
     assert explanations(motion(share, what), lines) == explained_by
 
