@@ -44,7 +44,7 @@ _PACKAGES = (
 _JOINT = re.compile(r'<joint\s+name="([^"]+)"\s*>(.*?)</joint>', re.DOTALL)
 _NAMED_JOINT = re.compile(r'<joint\s[^>]*?\bname="([^"]+)"')
 _LISTED_JOINTS = re.compile(
-    r'^\s*\w*(?:joints?|wheel_names|joints?_names?)\s*:((?:[^\n]*\n)(?:\s*-[^\n]*\n)*)',
+    r'^\s*\w*(?:joints?|(?:wheels?|joints?|dof)_names?)\s*:((?:[^\n]*\n)(?:\s*-[^\n]*\n)*)',
     re.MULTILINE,
 )
 """The values of parameters that name joints."""
@@ -182,7 +182,7 @@ def parameters_of(
 def _is_of_another(file: Path, text: str) -> bool:
     """Return whether a parameter file lists joints, and none of them is of a robot (its URDF)."""
     listed = _LISTED_JOINTS.findall(_text(file))
-    words = {word for each in listed for word in re.findall(r'[\w/.-]+', each)}
+    words = {word for each in listed for word in re.findall(r'[\w.-]+', each)}
     return bool(words) and words.isdisjoint(_NAMED_JOINT.findall(text))
 
 

@@ -107,8 +107,9 @@ def test_else_the_one_file_of_a_package_that_the_description_speaks_of(prefix, t
     for shape in ('    joints: [wrist, knee]\n', '    joints:\n    - wrist\n    - knee\n'):
         write(config / 'second.yaml', others + shape)  # another robot's
         assert find(tmp_path, CONTROLLED).told == (file,)
-    write(config / 'second.yaml', others + '    joints: [wrist, elbow]\n')
-    assert find(tmp_path, CONTROLLED).by == 'this program'
+    for names in ('joints: [wrist, elbow]', 'left_wheel_names: [pid/elbow]', 'dof_names: [elbow]'):
+        write(config / 'second.yaml', f'{others}    {names}\n')
+        assert find(tmp_path, CONTROLLED).by == 'this program'
 
 
 @pytest.mark.usefixtures('prefix')
