@@ -108,7 +108,9 @@ def test_of_commands_of_two_topics_none_is_sent_when_one_has_no_subscriber(sim):
 
 def test_it_logs_what_it_does(sim):
     assert "[INFO] [mujoco_sim]: Spawned 'amr'\n" in sim.log
-    assert '[diff_drive_controller]' in sim.log
+    sim.send(CMD_VEL, TwistSample(0, 0.1, 0.0))
+    sim.run(1.0)
+    assert '[WARN] [diff_drive_controller]: Velocity command timed out' in sim.log
     assert sim.is_alive
 
 
