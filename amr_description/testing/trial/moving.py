@@ -62,8 +62,13 @@ def is_moved(controller: Active) -> bool:
     return any(word in controller.type for word in _MOVED)
 
 
-def offset_of(joint: Joint | None, position: float) -> float:
-    """Return how far a joint is to move from a position, with its sign: rad or m."""
+def offset_of(joint: Joint | None, position: float, *, on_legs: bool = False) -> float:
+    """
+    Return how far a joint is to move from a position, with its sign: rad or m.
+
+    ``on_legs``: whether what is in the middle of its range but for a hair goes the same way as all
+    others; legs that go apart push against the ground.
+    """
     if joint is None:
         return _ANGLE
     far = _LENGTH if joint.type is JointType.PRISMATIC else _ANGLE
@@ -71,8 +76,8 @@ def offset_of(joint: Joint | None, position: float) -> float:
         return far
     above, below = joint.limit.upper - position, position - joint.limit.lower
     far = min(far, _SHARE * (joint.limit.upper - joint.limit.lower))
-    # In the middle but for a hair all go the same way: legs that go apart push against the ground.
-    return far if above >= below - _MIDDLE * (above + below) else -far
+    hair = _MIDDLE * (above + below) if on_legs else 0.0
+    return far if above >= below - hair else -far
 
 
 class JointStates:
@@ -166,9 +171,11 @@ class Mover:
         """Return (start, target) of each joint."""
         states = self._states.read()
         starts = {name: states[name].position for name in self._names}
+        on_legs = self._share < 1.0
         return {
-            name: (start, start + self._share_of(name) * offset_of(self._joints.get(name), start))
+            name: (start, start + self._share_of(name) * offset)
             for name, start in starts.items()
+            for offset in [offset_of(self._joints.get(name), start, on_legs=on_legs)]
         }
 
     def _share_of(self, name: str) -> float:

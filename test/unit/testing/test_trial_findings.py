@@ -323,7 +323,7 @@ def test_the_way_is_in_the_axes_of_the_start():
     [
         (JointType.REVOLUTE, (-2.0, 2.0), 0.0, 0.3),
         (JointType.REVOLUTE, (-2.0, 2.0), 1.0, -0.3),
-        (JointType.REVOLUTE, (-2.0, 2.0), 1e-6, 0.3),  # as its neighbour at -1e-6
+        (JointType.REVOLUTE, (-2.0, 2.0), 1e-6, -0.3),
         (JointType.REVOLUTE, (0.0, 0.5), 0.0, 0.1),
         (JointType.PRISMATIC, (0.0, 1.0), 0.0, 0.05),
         (JointType.CONTINUOUS, None, 5.0, 0.3),
@@ -334,6 +334,8 @@ def test_a_joint_is_asked_to_the_side_with_more_room(kind, limit, position, expe
     origin = Transform()
     joint = Joint('j', kind, 'a', 'b', origin, (0.0, 0.0, 1.0), bounds, None, None, 1)
     assert offset_of(joint, position) == pytest.approx(expected)
+    alike = 0.3 if position == 1e-6 else expected  # as its neighbour at -1e-6
+    assert offset_of(joint, position, on_legs=True) == pytest.approx(alike)
 
 
 def test_what_a_robot_that_trembles_does_is_told():
