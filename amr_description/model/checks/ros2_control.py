@@ -12,8 +12,10 @@ import math
 
 from amr_description.model.checks.context import CheckContext, DriveSettings
 from amr_description.model.findings import Finding
+from amr_description.model.gazebo.physics import gazebo_physics_of
 from amr_description.model.hardware_info import ComponentInfo, ComponentType, HardwareInfo
 from amr_description.model.robot import JointType
+from amr_description.model.wheels import described_rollers
 from amr_description.text import closest_match, quote, quote_all
 
 # A difference of more than this share is an error, not rounding.
@@ -233,7 +235,8 @@ def scrubbing_is_accounted_for(context: CheckContext) -> Iterator[Finding]:
             continue
         guess = 1.0 + length / width * (length / width)
         if drive.separation_multiplier != 1.0:
-            yield from _fits_scrubbing(drive, width * guess, guess)
+            if not _has_rollers(context, drive):  # which do not scrub
+                yield from _fits_scrubbing(drive, width * guess, guess)
             continue
         if drive.is_plugin:
             yield drive.warning(
@@ -252,6 +255,12 @@ def scrubbing_is_accounted_for(context: CheckContext) -> Iterator[Finding]:
             expected=f'about 1 + (L/W)² = {guess:.2f}',
             fix=f'write wheel_separation_multiplier: {guess:.2f}, then measure a full turn',
         )
+
+
+def _has_rollers(context: CheckContext, drive: DriveSettings) -> bool:
+    robot = context.robot
+    wheels = {joint.child for joint in robot.joints if joint.name in drive.left_wheels}
+    return not wheels.isdisjoint(described_rollers(robot, gazebo_physics_of(robot)))
 
 
 def _fits_scrubbing(drive: DriveSettings, needed: float, guess: float) -> Iterator[Finding]:

@@ -194,3 +194,17 @@ def test_a_multiplier_that_does_not_fit_wheels_that_scrub_is_told(check, multipl
         assert line.startswith('warning: c.yaml:') and said in line
     else:
         assert lines == []
+
+
+def test_wheels_with_rollers_are_not_told_that_they_scrub(check, tmp_path):
+    friction = '<mu1>1.0</mu1><mu2>0.0</mu2><fdir1>1 {} 0</fdir1>'
+    blocks = ''.join(
+        f'<gazebo reference="wheel_{row}_{side}">{friction.format(sign)}</gazebo>'
+        for row, side, sign in (
+            ('front', 'left', -1), ('front', 'right', 1), ('back', 'left', 1), ('back', 'right', -1)
+        )
+    )  # fmt: skip
+    rolling = tmp_path / 'rolling.urdf'
+    rolling.write_text(AMR.read_text().replace('</robot>', f'{blocks}</robot>'))
+    text = SHIPPED.replace('multiplier: 2.82', 'multiplier: 2.0')
+    assert not [line for line in check(rolling, text)[1] if 'scrub' in line]
