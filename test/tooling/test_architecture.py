@@ -44,7 +44,7 @@ FEW_LINES = 80
 # a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
     'modules': 871,
-    'code lines': 101_199,
+    'code lines': 101_209,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,

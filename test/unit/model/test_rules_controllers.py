@@ -200,10 +200,9 @@ def test_wheels_with_rollers_are_not_told_that_they_scrub(check, tmp_path):
     friction = '<mu1>1.0</mu1><mu2>0.0</mu2><fdir1>1 {} 0</fdir1>'
     blocks = ''.join(
         f'<gazebo reference="wheel_{row}_{side}">{friction.format(sign)}</gazebo>'
-        for row, side, sign in (
-            ('front', 'left', -1), ('front', 'right', 1), ('back', 'left', 1), ('back', 'right', -1)
-        )
-    )  # fmt: skip
+        for row, front in (('front', 1), ('back', -1))
+        for side, sign in (('left', -front), ('right', front))
+    )
     rolling = tmp_path / 'rolling.urdf'
     rolling.write_text(AMR.read_text().replace('</robot>', f'{blocks}</robot>'))
     text = SHIPPED.replace('multiplier: 2.82', 'multiplier: 2.0')
