@@ -87,9 +87,17 @@ def _manager_of(robot: str, like: ServedRobot) -> str | None:
     manager = like.found.manager
     if manager is not None:
         return robot.rstrip('/') + manager.removeprefix(like.found.id.rstrip('/'))
-    if like.described is None:
-        return None
-    described = translate(parse(like.described.message.urdf)).robot
+    return None if like.described is None else manager_of(robot, like.described.message.urdf)
+
+
+def manager_of(robot: str, urdf: str) -> str | None:
+    """
+    Return the controller manager that a robot in this namespace has; None: it has no hardware.
+
+    Raises:
+        DescriptionError: The description cannot be read.
+    """
+    described = translate(parse(urdf)).robot
     if not hardware_of(described):
         return None
     return f'{robot.rstrip("/")}/{ros2_control_host_of(described).controller_manager_name}'

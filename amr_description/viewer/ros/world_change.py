@@ -11,7 +11,7 @@ controllers, and time goes on if it did.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from amr_description.errors import ViewerError
+from amr_description.errors import AmrError, ViewerError
 from amr_description.viewer.entities import SpawnedEntity
 from amr_description.viewer.protocol import RobotInfo
 from amr_description.viewer.requests import LoadWorld, Play
@@ -21,6 +21,7 @@ from amr_description.viewer.ros.service_clients import (
     ServiceClients,
     SimulatorClient,
 )
+from amr_description.viewer.ros.setting_up import manager_of
 from amr_description.viewer.ros.threads import ServedRobot
 
 
@@ -49,7 +50,11 @@ def residents_of(
         robots: Those of the graph, of which some are known to be entities.
         connections: With them, by their ids.
     """
-    found = {each.name: Resident(each.name, each.namespace, each.urdf, None) for each in spawned}
+    # What has just come is not known in the graph yet: then its manager is that of its namespace.
+    found = {
+        each.name: Resident(each.name, each.namespace, each.urdf, _manager_of(each))
+        for each in spawned
+    }
     for robot in robots:
         entity, connection = robot.entity, connections.get(robot.id)
         if entity is None or entity.simulator != simulator or connection is None:
@@ -58,6 +63,13 @@ def residents_of(
             urdf, manager = connection.described.message.urdf, connection.found.manager
             found[entity.name] = Resident(entity.name, robot.id, urdf, manager)
     return [*found.values()]
+
+
+def _manager_of(spawned: SpawnedEntity) -> str | None:
+    try:
+        return manager_of(spawned.namespace, spawned.urdf)
+    except AmrError:
+        return None  # it is spawned by other means than a URDF
 
 
 async def change_world(

@@ -17,6 +17,7 @@ from amr_description.viewer.entities import SpawnedEntity
 from amr_description.viewer.graph import discover
 from amr_description.viewer.ros.graph_monitor import names_in_graph
 from amr_description.viewer.ros.spawned_robots import PATIENCE, SpawnedRobots
+from amr_description.viewer.ros.world_change import residents_of
 
 WORLD = [SpawnedEntity('amr', '/', AMR), SpawnedEntity('two', '/robot2', AMR)]
 
@@ -83,3 +84,18 @@ def test_who_describes_a_robot_himself_is_given_way(node, spawned):
     )
     assert found
     node.destroy_publisher(other)
+
+
+def test_what_has_just_come_keeps_its_controllers_in_another_world():
+    """The graph does not say yet which robot it is: the manager is known by its namespace."""
+    found = residents_of('/mujoco_sim', WORLD, (), {})
+    assert [(each.entity, each.manager) for each in found] == [
+        ('amr', '/controller_manager'),
+        ('two', '/robot2/controller_manager'),
+    ]
+    crate = SpawnedEntity('crate', '/', '<robot name="crate"><link name="box"/></robot>')
+    broken = SpawnedEntity('other', '/', '<sdf')
+    assert [each.manager for each in residents_of('/mujoco_sim', [crate, broken], (), {})] == [
+        None,
+        None,
+    ]
