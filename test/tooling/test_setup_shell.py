@@ -329,8 +329,10 @@ def test_a_moved_or_copied_checkout_is_said(shell, tmp_path):
     assert 'its Python is gone' in shell_run(f'. {activate}', shell).stderr
 
 
-def test_activate_says_that_it_is_to_be_sourced():
-    done = subprocess.run(['bash', ACTIVATE], env=PLAIN, capture_output=True, text=True)
+@pytest.mark.parametrize('line', ['bash "$0"', '"$0"'])
+def test_activate_says_that_it_is_to_be_sourced(line):
+    command = ['bash', '-c', line, ACTIVATE]
+    done = subprocess.run(command, env=PLAIN, capture_output=True, text=True)
     assert done.returncode == 1
     assert 'to be sourced, not run' in done.stderr
 
