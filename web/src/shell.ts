@@ -154,6 +154,7 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
   return {
     reset: () => {
       setFolded(false);
+      setLarge(false);
       Object.values(bars).forEach(({ reset }) => reset());
       workspace.reset();
     },

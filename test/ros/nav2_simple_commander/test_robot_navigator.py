@@ -65,10 +65,13 @@ def finish(navigator):
     return navigator.getResult(), feedback
 
 
-def test_without_a_task_all_is_complete(navigator):
-    assert navigator.isTaskComplete()
-    assert navigator.getResult() is TaskResult.UNKNOWN
-    assert navigator.getFeedback() is None
+@pytest.mark.usefixtures('site')
+def test_without_a_task_all_is_complete():
+    idle = BasicNavigator('idle')
+    assert idle.isTaskComplete()
+    assert idle.getResult() is TaskResult.UNKNOWN
+    assert idle.getFeedback() is None
+    idle.destroyNode()
 
 
 def test_it_drives_to_poses_along_paths_and_to_waypoints(site, navigator):

@@ -16,7 +16,7 @@ import rclpy
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from simulation_interfaces.msg import Result
-from simulation_interfaces.srv import GetEntities, LoadWorld, SpawnEntity
+from simulation_interfaces.srv import DeleteEntity, GetEntities, LoadWorld, SpawnEntity
 from support.needs import need
 from support.ros_processes import PATIENCE
 from support.running_programs import Program
@@ -138,3 +138,6 @@ def test_an_own_file_is_expanded_with_its_arguments(client, write):
     spawned = client.ask(SpawnEntity, 'spawn_entity', uri=f'{path}?name=one')
     assert spawned.result.result == Result.RESULT_OK, spawned.result.error_message
     assert spawned.entity_name == 'one'
+    assert (
+        client.ask(DeleteEntity, 'delete_entity', entity='one').result.result == Result.RESULT_OK
+    )

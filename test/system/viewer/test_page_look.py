@@ -172,14 +172,14 @@ def test_nothing_overflows_or_overlaps(page, name):
     show(page, 'health')
     assert page.evaluate('auditPage.faults()') == []
     if form != 'desk':
-        page.evaluate("document.querySelector('.sheet-head .button').click()")
+        page.evaluate("document.querySelector('.sheet-head .button:last-child').click()")
         page.evaluate(DRAWN)
         assert page.evaluate('auditPage.faults()') == []
 
 
 def test_a_low_window_is_for_the_view(page):
     be(page, (667, 375, True), 'wide')
-    page.evaluate("document.querySelector('.sheet-head .button').click()")
+    page.evaluate("document.querySelector('.sheet-head .button:last-child').click()")
     page.evaluate(DRAWN)
     high = "document.querySelector('.view').getBoundingClientRect().height"
     assert page.evaluate(high) > 0.8 * 375
