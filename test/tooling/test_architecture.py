@@ -49,7 +49,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_732,
+    'code lines of helpers in test files': 27_733,
 }
 
 BASE = {
