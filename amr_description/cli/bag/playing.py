@@ -69,7 +69,8 @@ def play(
             if options.has_clock or '/clock' in recording.topics:
                 _refuse_second_clock(node)
             with _keyboard(node, player, args):
-                player.start()
+                with session.stop.deferred(session.interrupt):  # else nobody waits for its thread
+                    player.start()
                 if burst is not None:
                     player.burst(burst)
                     if player.is_at_end:
