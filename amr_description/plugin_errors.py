@@ -17,7 +17,7 @@ _CATCHERS = ('/ros/firewall.py',)
 _LIBRARIES = (*(sysconfig.get_path(name) for name in ('stdlib', 'purelib')), '<')
 
 
-def describe(error: Exception) -> str:
+def describe(error: BaseException) -> str:
     """
     Return the text of an error; unless it is one of ours, with its type and its place:
     ``KeyError: 'left' (my_controller.py:6)``.
@@ -27,7 +27,7 @@ def describe(error: Exception) -> str:
     return f'{type(error).__name__}: {error_line(error)}'
 
 
-def error_line(error: Exception) -> str:
+def error_line(error: BaseException) -> str:
     """Return the text of an error without line breaks, with its place unless it is of ours."""
     text = unwrap(_text_of(error))
     return text if isinstance(error, AmrError) else f'{text}{place_of(error)}'
@@ -67,7 +67,7 @@ def is_traceback(text: str) -> bool:
     return 'Traceback (most recent call last):' in text.partition('\n')[0]
 
 
-def _text_of(error: Exception) -> str:
+def _text_of(error: BaseException) -> str:
     try:
         return encodable(str(error))
     except Exception:  # of its own __str__

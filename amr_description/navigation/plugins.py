@@ -98,21 +98,22 @@ def _plan(function: PlanFunction, costmap: Costmap, start: Pose, goal: Pose) -> 
     try:
         found = function(costmap, start, goal)
         poses = [*(found if found is not None else ())]
-        points = np.array([_point(each) for each in poses], dtype=float).reshape(-1, 2)
+        places = np.array([_place(each) for each in poses]).reshape(-1, 3)
     except NavigationError:
         raise
-    except Exception as error:  # the function may raise anything
+    except (Exception, SystemExit) as error:  # the function may raise anything
         text = f'the planner has failed: {describe(error)}'
         raise NavigationError(UNKNOWN_OF_PLANNER, text) from error
     if not poses:
         raise planner.no_path(start, goal)
-    if not np.isfinite(points).all():
-        number = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+    bad = np.flatnonzero(~np.isfinite(places).all(axis=1))
+    if len(bad):
         raise NavigationError(
             UNKNOWN_OF_PLANNER,
-            f'point {number} of the {len(points)} that the planner has returned is '
-            f'{tuple(map(float, points[number]))}; finite numbers will do',
+            f'point {bad[0]} of the {len(poses)} that the planner has returned is '
+            f'{poses[bad[0]]}; finite numbers will do',
         )
+    points = places[:, :2]
     away = math.hypot(*(points[-1] - (goal.x, goal.y)))
     if away > 2.0 * costmap.resolution:
         raise NavigationError(
@@ -130,11 +131,11 @@ def _plan(function: PlanFunction, costmap: Costmap, start: Pose, goal: Pose) -> 
     ] + [goal]
 
 
-def _point(given: Any) -> tuple[float, float]:
+def _place(given: Any) -> tuple[float, float, float]:
     if isinstance(given, Pose):
-        return given.x, given.y
+        return given.x, given.y, given.yaw
     x, y = given
-    return float(x), float(y)
+    return float(x), float(y), 0.0
 
 
 class FunctionFollower(PathFollower):
@@ -159,7 +160,7 @@ class FunctionFollower(PathFollower):
             linear, angular = map(float, self._function(pose, speed, path, costmap, self._period))
         except NavigationError:
             raise
-        except Exception as error:  # the function may raise anything
+        except (Exception, SystemExit) as error:  # the function may raise anything
             text = f'the controller has failed: {describe(error)}'
             raise NavigationError(UNKNOWN_OF_CONTROLLER, text) from error
         if not (math.isfinite(linear) and math.isfinite(angular)):
@@ -168,4 +169,4 @@ class FunctionFollower(PathFollower):
                 f'the controller has returned ({linear}, {angular}); m/s and rad/s that are '
                 'finite will do',
             )
-        return Control(linear, angular, path[0])
+        return Control(linear, angular, path[-1])

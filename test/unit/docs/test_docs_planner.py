@@ -4,6 +4,7 @@
 
 import math
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -83,8 +84,10 @@ def raise_it(*_):
         (lambda *_: None, 208, r'no path from \(0.00, 0.00\) to \(1.00, 0.50\)'),
         (lambda *_: [], 208, 'no path from'),
         (lambda *_: 7, 200, 'the planner has failed: TypeError'),
+        (lambda *_: sys.exit(1), 200, 'the planner has failed: SystemExit'),
         (lambda *_: [(1.0,), (2.0,)], 200, 'the planner has failed: ValueError'),
         (lambda *_: [(0.0, 0.0), (math.nan, 0.5)], 200, r'point 1 of the 2 .* is \(nan, 0.5\)'),
+        (lambda *_: [Pose(0.0, 0.0, math.nan), GOAL], 200, r'point 0 of the 2 .* yaw=nan'),
         (lambda *_: [(0.0, 0.0), (0.5, 0.5)], 208, 'ends 0.50 m from the goal, more than two'),
     ],
 )
@@ -100,6 +103,7 @@ def test_what_a_planner_does_wrong_is_one_line(function, code, words):
     [
         (raise_it, "the controller has failed: KeyError: 'left'"),
         (lambda *_: None, 'the controller has failed: TypeError'),
+        (lambda *_: sys.exit(1), 'the controller has failed: SystemExit'),
         (lambda *_: (math.nan, 0.0), r'has returned \(nan, 0.0\); m/s and rad/s'),
     ],
 )
@@ -137,14 +141,15 @@ def test_one_that_drives_at_an_obstacle_is_held():
     cells = np.zeros((80, 80), dtype=np.int8)
     cells[:, 50] = 100
     walled = Costmap(OccupancyGrid(cells, 0.05, Pose(-2.0, -2.0, 0.0)), 0.1, CostmapSettings())
+    goal = Pose(1.0, 0.0, 0.0)
     drive = NavigationDrive(
         NavigationDriveSettings(),
         np.zeros((1, 2)),
-        [GOAL],
-        plan=lambda *_: [START, GOAL],
+        [goal],
+        plan=lambda *_: [Pose(0.05 * k, 0.0, 0.0) for k in range(20)] + [goal],
         velocity=lambda *_: (0.5, 0.0),
     )
-    assert drive.step(0.0, Pose(0.3, 0.0, 0.0), (0.5, 0.0), walled).linear == 0.0
+    assert drive.step(0.0, Pose(0.15, 0.0, 0.0), (0.5, 0.0), walled).linear == 0.0
     assert drive.status is DriveStatus.RUNNING, 'it waits, and recovers'
 
 
