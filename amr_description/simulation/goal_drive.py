@@ -8,25 +8,23 @@ So a planner or a follower of one's own is tried in seconds:
 """
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from amr_description.ament_index import resolve_uri
+from amr_description.ament_index import path_of, resolve_uri
+from amr_description.controller_manager.plain_parameters import given_parameters
 from amr_description.errors import SimulationError
 from amr_description.maps.pose import Pose
 from amr_description.model.footprint import footprint
 from amr_description.model.frames import yaw_of
 from amr_description.navigation.behaviors import DriveStatus
 from amr_description.navigation.costmap import Costmap, CostmapSettings
-from amr_description.navigation.drive import (
-    GoalCheckerSettings,
-    NavigationDrive,
-    NavigationDriveSettings,
-)
+from amr_description.navigation.drive import NavigationDrive, NavigationDriveSettings
 from amr_description.navigation.footprint import outline, Points
-from amr_description.navigation.path_follower import PursuitSettings
 from amr_description.navigation.plugins import PlanFunction, VelocityFunction
+from amr_description.parameters import build
 from amr_description.sim.occupancy import map_of_model, MapSettings
 from amr_description.simulation.in_process import Simulation
 
@@ -37,18 +35,16 @@ _SPACING = 0.025
 """m between points of the outline: half a cell."""
 _SCAN_PERIOD = 0.1
 """s"""
-SETTINGS = NavigationDriveSettings(
-    goal_checker=GoalCheckerSettings(
-        xy_goal_tolerance=0.05,
-        yaw_goal_tolerance=0.05,
-        trans_stopped_velocity=0.05,
-        rot_stopped_velocity=0.05,
-    ),
-    pursuit=PursuitSettings(rotate_to_heading_angular_vel=1.0, max_angular_accel=2.5),
-)
-"""Of ``config/navigator.yaml``."""
-COSTS = CostmapSettings(inflation_radius=0.7, cost_scaling_factor=3.0, inf_is_valid=True)
-"""Of ``config/navigator.yaml``."""
+_NAVIGATOR = 'package://amr_description/config/navigator.yaml'
+
+
+@cache
+def settings_of_amr() -> tuple[NavigationDriveSettings, CostmapSettings]:
+    """Return the parameters of the navigator and of its costmap, by ``config/navigator.yaml``."""
+    arguments = ('--params-file', str(path_of(_NAVIGATOR)))
+    values = given_parameters('/navigator', arguments)
+    drive = build(NavigationDriveSettings, values)
+    return drive, build(CostmapSettings, values, 'costmap.')
 
 
 def drive_to(
@@ -57,24 +53,23 @@ def drive_to(
     *,
     plan: PlanFunction | None = None,
     velocity: VelocityFunction | None = None,
-    settings: NavigationDriveSettings = SETTINGS,
-    costs: CostmapSettings = COSTS,
+    settings: NavigationDriveSettings | None = None,
+    costs: CostmapSettings | None = None,
     seconds: float = 120.0,
     watch: Callable[[NavigationDrive], Any] = lambda _drive: None,
 ) -> NavigationDrive:
     """
     Drive the robot to a goal, on the map of its world; what its lidar sees is in the way, too.
 
-    It knows where it is: its pose is the truth. It may still move afterwards, as it has been told
-    to stand in the last step.
+    It knows where it is: its pose is the truth. At the end it has been told to stand.
 
     Args:
         sim: Has one robot, with a controller that takes velocities.
         goal: In the frame of the world: a pose, (x, y) or (x, y, yaw), m and rad.
         plan: In place of the built-in planner; see :mod:`amr_description.navigation.plugins`.
         velocity: In place of the built-in follower.
-        settings: Of the navigator; those of amr at first.
-        costs: Of its costmap; those of amr at first.
+        settings: Of the navigator; None: those of amr.
+        costs: Of its costmap; None: those of amr.
         seconds: At most, of simulated time.
         watch: Called before each step.
 
@@ -86,7 +81,9 @@ def drive_to(
         MapError: The world has no map.
         DescriptionError: The robot has no footprint.
     """
-    costmap, corners = _surroundings(sim, costs)
+    usual, usual_costs = settings_of_amr()
+    settings = settings or usual
+    costmap, corners = _surroundings(sim, costs or usual_costs)
     target = goal if isinstance(goal, Pose) else Pose(*map(float, (*goal, 0.0)[:3]))
     drive = NavigationDrive(
         settings, outline(corners, _SPACING), [target], plan=plan, velocity=velocity

@@ -16,27 +16,14 @@ from support.warehouse_goals import (
 
 from amr_description.maps.pose import Pose, wrapped
 from amr_description.navigation.behaviors import DriveStatus
-from amr_description.navigation.costmap import Costmap, CostmapSettings
-from amr_description.navigation.drive import (
-    GoalCheckerSettings,
-    NavigationDrive,
-    NavigationDriveSettings,
-)
+from amr_description.navigation.costmap import Costmap
+from amr_description.navigation.drive import NavigationDrive
 from amr_description.navigation.footprint import inscribed_radius, outline
-from amr_description.navigation.path_follower import PursuitSettings
+from amr_description.simulation.goal_drive import settings_of_amr
 from amr_description.testing.simulation import Simulation
 
 PERIOD = 0.05
-SETTINGS = NavigationDriveSettings(
-    goal_checker=GoalCheckerSettings(
-        xy_goal_tolerance=0.05,
-        yaw_goal_tolerance=0.05,
-        trans_stopped_velocity=0.05,
-        rot_stopped_velocity=0.05,
-    ),
-    pursuit=PursuitSettings(rotate_to_heading_angular_vel=1.0, max_angular_accel=2.5),
-)  # as config/navigator.yaml
-COSTS = CostmapSettings(inflation_radius=0.7, cost_scaling_factor=3.0, inf_is_valid=True)
+SETTINGS, COSTS = settings_of_amr()
 GROUND = 'ground::link::collision'
 LONGEST = 120.0
 """s for a goal; only a robot that is stuck takes as long."""
