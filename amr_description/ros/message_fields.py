@@ -37,18 +37,21 @@ class Words:
     now: bool = True
 
 
-class FieldError(AmrError):
-    """A value does not fit its field."""
+_BOTH = Words()
 
-    def __init__(self, reason: str, path: str) -> None:
+
+class FieldError(AmrError):
+    """A value does not fit its field; ``kind`` is what Python calls such a fault."""
+
+    def __init__(self, reason: str, path: str, kind: type[Exception]) -> None:
         super().__init__(f'Failed to populate field: {reason}{f" (field {path})" if path else ""}')
-        self.reason = reason
+        self.reason, self.kind = reason, kind
 
 
 _YAML_BOOLEANS = {'true': True, 'yes': True, 'on': True, 'false': False, 'no': False, 'off': False}
 
 
-def set_fields(message: Any, values: Any, words: Words = Words()) -> list[Stamp]:  # noqa: B008
+def set_fields(message: Any, values: Any, words: Words = _BOTH) -> list[Stamp]:
     """
     Set the fields of a message; those not mentioned keep their defaults.
 
@@ -75,13 +78,14 @@ class _FieldSetter:
                 f"Value '{values}' is expected to be a dictionary but is a "
                 f'{type(values).__name__}',
                 path,
+                TypeError,
             )
         names = list(message.get_fields_and_field_types())
         slots = dict(zip(names, message.SLOT_TYPES, strict=True))
         for name, value in values.items():
             if name not in slots:
                 unknown = f"'{type(message).__name__}' object has no attribute '{name}'"
-                raise _misfit(f'{unknown}; it has {", ".join(names)}', path)
+                raise _misfit(f'{unknown}; it has {", ".join(names)}', path, AttributeError)
             self._set(message, name, slots[name], value, f'{path}.{name}'.lstrip('.'))
 
     def _set(self, message: Any, name: str, slot: Any, value: Any, path: str) -> None:
@@ -183,8 +187,8 @@ def _is(slot: Any, name: str) -> bool:
     return isinstance(slot, NamespacedType) and '/'.join(slot.namespaced_name()) == name
 
 
-def _misfit(reason: str, path: str) -> FieldError:
-    return FieldError(shorten(reason), path)
+def _misfit(reason: str, path: str, kind: type[Exception] = ValueError) -> FieldError:
+    return FieldError(shorten(reason), path, kind)
 
 
 def of_numpy(value: Any, kind: str) -> bool:

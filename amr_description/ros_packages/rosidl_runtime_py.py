@@ -233,9 +233,7 @@ def set_message_fields(
     try:
         return set_fields(msg, values, words)
     except FieldError as error:
-        kinds = {'has no attribute': AttributeError, 'expected to be a dictionary': TypeError}
-        kind = next((kind for text, kind in kinds.items() if text in error.reason), ValueError)
-        raise kind(error.reason if kind is TypeError else str(error)) from error
+        raise error.kind(error.reason if error.kind is TypeError else str(error)) from error
 
 
 def _ordered(value: Any) -> Any:
