@@ -34,6 +34,8 @@ _ANGLE, _LENGTH = 0.3, 0.05
 """rad and m."""
 _SHARE = 0.2
 """Of the range of a joint."""
+_OF_LEGS = 0.2
+"""As a share of how far others are moved: two legs that bend as far as an arm fall."""
 _MIDDLE = 0.01
 """Of the range of a joint; as far from its middle it has as much room to both sides."""
 _SECONDS, _SETTLING = 2.0, 1.5
@@ -115,11 +117,12 @@ class Mover:
         controller: Active,
         joints: Mapping[str, Joint],
         states: JointStates,
-        share: float = 1.0,
+        *,
+        on_legs: bool = False,
         held: Collection[str] = (),
     ) -> None:
-        """``share``: of how far joints are moved else; ``held``: joints that are not moved."""
-        self._share = share
+        """``on_legs``: whether the robot stands on legs; ``held``: joints that are not moved."""
+        self._on_legs = on_legs
         self._held = frozenset(held)
         self._sim = sim
         self._controller = controller
@@ -171,17 +174,16 @@ class Mover:
         """Return (start, target) of each joint."""
         states = self._states.read()
         starts = {name: states[name].position for name in self._names}
-        on_legs = self._share < 1.0
         return {
             name: (start, start + self._share_of(name) * offset)
             for name, start in starts.items()
-            for offset in [offset_of(self._joints.get(name), start, on_legs=on_legs)]
+            for offset in [offset_of(self._joints.get(name), start, on_legs=self._on_legs)]
         }
 
     def _share_of(self, name: str) -> float:
         """Return the share of a joint, of which all that are asked of are not held."""
         is_held = name in self._held and not self._held.issuperset(self._names)
-        return 0.0 if is_held else self._share
+        return 0.0 if is_held else _OF_LEGS if self._on_legs else 1.0
 
     def _by_trajectory(self) -> MotionResult:
         targets = self._targets()

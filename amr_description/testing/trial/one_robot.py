@@ -51,8 +51,6 @@ from amr_description.testing.trial.verdict import cause_of, describe, explanatio
 from amr_description.text import one_line, quote_all
 
 _PLANAR = 'GazeboPlanarMove'
-_OF_LEGS = 0.2
-"""As a share of how far others are moved: two legs that bend as far as an arm fall."""
 
 
 @dataclass(frozen=True)
@@ -231,9 +229,8 @@ class Trial:
             joints = {each.name: each for each in robot.joints}
             try:
                 with closing(JointStates(sim, active)) as states:
-                    share = _OF_LEGS if stands_on_legs(robot) else 1.0
-                    held = spreading_joints(robot)
-                    mover = Mover(sim, controller, joints, states, share, held)
+                    on_legs, held = stands_on_legs(robot), spreading_joints(robot)
+                    mover = Mover(sim, controller, joints, states, on_legs=on_legs, held=held)
                     self.found.motions.append(mover.move())
             except LookupError as error:
                 self.found.undriven.append(f'{controller.name}: {error}')

@@ -216,7 +216,7 @@ def test_what_is_held_is_asked_to_stay_unless_there_is_nothing_else():
 
     def asked(*claimed):
         legs = Active('legs', 'x/JointTrajectoryController', '/', claimed, False)
-        mover = Mover(SimpleNamespace(), legs, {}, states, 0.2, frozenset({'hip'}))
+        mover = Mover(SimpleNamespace(), legs, {}, states, on_legs=True, held={'hip'})
         return {name: round(b - a, 3) for name, (a, b) in mover._targets().items()}
 
     assert asked(*joints) == {'hip': 0.0, 'knee': 0.06}
