@@ -19,17 +19,14 @@ from hypothesis.stateful import (
 )
 import pytest
 from support.examples import examples
-from support.page import Page
-from support.ros_processes import running
-from test_viewer_server import url_of, viewer
 from test_viewer_simulation import (
     Asker,
     CONTROLLERS,
-    described,
     distance,
     drive_until,
     entities_of,
     height,
+    page_of_walls,
     place,
     robot,
     SIMULATOR,
@@ -48,13 +45,7 @@ STILL = 0.02
 
 @pytest.fixture(scope='module')
 def page():
-    with (
-        described(),
-        running('mujoco_sim', '--ros-args', '-p', 'world:=walls', until='waiting for robots'),
-        viewer() as program,
-        Page(url_of(program)) as page,
-    ):
-        page.wait(lambda: page.last('model') and simulators(page))
+    with page_of_walls() as page:
         yield page
 
 

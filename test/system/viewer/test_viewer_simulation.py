@@ -66,8 +66,9 @@ def described():
         rclpy.try_shutdown()
 
 
-@pytest.fixture(scope='module')
-def page():
+@contextmanager
+def page_of_walls():
+    """The page of a simulator that has no robot yet; the viewer has nothing to complain of."""
     with (
         described(),
         running('mujoco_sim', '--ros-args', '-p', 'world:=walls', until='waiting for robots'),
@@ -78,6 +79,12 @@ def page():
         page.wait(lambda: simulators(page))
         yield page
         assert len(program.lines) == 1, program.output
+
+
+@pytest.fixture(scope='module')
+def page():
+    with page_of_walls() as page:
+        yield page
 
 
 @pytest.fixture(scope='module')
