@@ -44,12 +44,12 @@ FEW_LINES = 80
 # a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
     'modules': 871,
-    'code lines': 101_218,
+    'code lines': 101_216,
     'small modules of one importer beside them': 39,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_733,
+    'code lines of helpers in test files': 27_725,
 }
 
 BASE = {

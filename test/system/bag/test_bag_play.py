@@ -4,9 +4,11 @@
 
 import re
 import signal
+import sys
 
 from fixtures.cli.commands import ros2, started
 import pytest
+from support.paths import ROOT
 from support.running_programs import Program
 from support.small_bags import LATCHED, topic, write_bag
 
@@ -18,6 +20,7 @@ TEXTS = [
 ]
 
 LISTENING = ('--qos-reliability', 'reliable', '--qos-depth', '50')
+PLAYER = ROOT / 'test/fixtures/cli/player_signalled_while_it_starts.py'
 
 
 @pytest.fixture(scope='module')
@@ -66,33 +69,9 @@ def test_ctrl_c_ends_it(bag):
         assert 'Traceback' not in player.output
 
 
-SIGNALLED_WHILE_IT_STARTS = """
-import os, signal, sys, threading
-from amr_description.bag.ros.player import Player
-from amr_description.entry import run
-from amr_description.cli.main import main
-
-bootstrap, play = threading.Thread._bootstrap, Player._run
-
-def begin(thread):
-    if thread.name == 'player':
-        os.kill(os.getpid(), signal.SIGINT)
-        main_thread.wait(0.3)  # it has the signal now, and waits for a thread that has not begun
-    bootstrap(thread)
-
-def run_to_its_end(player):
-    play(player)
-    print('played', flush=True)
-
-main_thread = threading.Event()
-threading.Thread._bootstrap, Player._run = begin, run_to_its_end
-os._exit(run(lambda: lambda: main('ros2', ['bag', 'play', sys.argv[1], '--loop']), signal.SIGINT))
-"""
-
-
 def test_ctrl_c_while_its_thread_begins_waits_for_that(bag):
     """Else it would find closed what it plays to, and print so while the process ends."""
-    with Program.of(SIGNALLED_WHILE_IT_STARTS, bag) as player:
+    with Program(sys.executable, PLAYER, bag) as player:
         assert player.end() == 2
         assert player.lines[-1] == 'played'
         assert 'Traceback' not in player.output
