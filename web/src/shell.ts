@@ -44,7 +44,7 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
     }),
   };
   const close = button('', () => setSheet(false), { icon: 'close', title: 'Close the panels' });
-  const grow = button('', () => setLarge(!body.classList.contains('large')), { icon: 'range' });
+  const grow = button('', () => setLarge(!body.classList.contains('large')), { icon: 'range', title: 'Large panels' });
   const head = h('div', { class: 'sheet-head' }, grow, close);
   const title = h('h2', { class: 'unseen' }, 'Panels');
   const sheet = h('aside', { class: 'sheet', 'aria-label': 'Panels' }, title, head, tabs.element);
@@ -73,8 +73,6 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
   function setLarge(large: boolean): void {
     body.classList.toggle('large', large);
     grow.setAttribute('aria-pressed', String(large));
-    grow.title = 'Large panels';
-    grow.setAttribute('aria-label', grow.title);
     remember('large', large ? 'yes' : 'no');
   }
 

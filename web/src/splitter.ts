@@ -23,7 +23,6 @@ export interface Splitter {
   readonly element: HTMLElement;
   /** As it was at first. */
   reset: () => void;
-  readonly isMoved: boolean;
 }
 
 export function splitter({ name, label, beside = false, part, least, most, usual }: About): Splitter {
@@ -88,11 +87,5 @@ export function splitter({ name, label, beside = false, part, least, most, usual
   const text = linkPart(name, () => share?.toFixed(3) ?? '') ?? recall(name) ?? '';
   const kept = Number.parseFloat(text);
   set(Number.isFinite(kept) ? kept : null);
-  return {
-    element: bar,
-    reset,
-    get isMoved() {
-      return share !== null;
-    },
-  };
+  return { element: bar, reset };
 }
