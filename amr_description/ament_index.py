@@ -30,6 +30,7 @@ What the index says of a package in whose place something of ours is (``scripts/
 
 Programs of others find it there; here it counts as not installed, so that this is said.
 """
+_MANIFESTS = ('package.xml', *(f'src/{"*/" * depth}package.xml' for depth in range(4)))
 _NAME = re.compile(r'[a-zA-Z0-9][a-zA-Z0-9_-]+')  # REP 127, with what it exempts
 _MODULES = Path(__file__).resolve().parents[1]
 _VARIABLE = 'AMENT_PREFIX_PATH'
@@ -314,9 +315,56 @@ def path_of(file: str, argument: str = '') -> Path:
         asked = f'{argument}:={file}' if argument else f"'{file}'"
         if path.is_dir():
             raise ResourceError(f'{asked}: it is a folder: {path}')
-        near = [each.name for each in path.parent.glob('*')]
-        raise ResourceError(f'{asked}: no such file: {path}{did_you_mean(path.name, near)}')
+        raise ResourceError(f'{asked}: no such file: {path}{hint_at(path)}')
     return path
+
+
+def source_of(installed: Path) -> Path | None:
+    """
+    Return the source file that an installed file is copied from; None: it is not known.
+
+    The installed one need not be there: so it is of a source that is newer than the last build.
+    """
+    for prefix in prefixes():
+        share = prefix / 'share'
+        if installed.is_relative_to(share) and len(installed.relative_to(share).parts) > 1:
+            package, *below = installed.relative_to(share).parts
+            found = (folder.joinpath(*below) for folder in sources_of(package, prefix))
+            return next((file for file in found if file.is_file()), None)
+    return None
+
+
+def sources_of(package: str, prefix: Path) -> Iterator[Path]:
+    """Yield the source folders of a package that a colcon workspace has installed in a prefix."""
+    for workspace in (prefix.parent, prefix.parent.parent):
+        if not (workspace / 'build' / package).is_dir():
+            continue
+        for pattern in _MANIFESTS:
+            for manifest in sorted(workspace.glob(pattern)):
+                if package_in(manifest) == package:
+                    yield manifest.parent
+
+
+def package_in(manifest: Path) -> str | None:
+    """Return the name in a package.xml; None if there is none."""
+    try:
+        text = manifest.read_text('utf-8', errors='replace')
+    except OSError:
+        return None
+    name = re.search(r'<name>\s*(\S+?)\s*</name>', text)
+    return name[1] if name else None
+
+
+def hint_at(missing: Path) -> str:
+    """Return what would do about a file that is not there: to build, or another name; or ''."""
+    if (source := source_of(missing)) is not None:
+        return not_installed(source)
+    return did_you_mean(missing.name, [each.name for each in missing.parent.glob('*')])
+
+
+def not_installed(source: Path) -> str:
+    """Return what would do about a source file that no build has installed so far."""
+    return f'; {source} is not installed: colcon build, if setup.py or CMakeLists.txt names it'
 
 
 def shipped_worlds() -> dict[str, Path]:

@@ -12,10 +12,9 @@ from collections.abc import Iterator, Sequence
 from datetime import datetime
 import hashlib
 from pathlib import Path
-import re
 from typing import TypeAlias
 
-from amr_description.ament_index import package_prefix, prefixes
+from amr_description.ament_index import package_in, package_prefix, source_of
 from amr_description.bringup.handlers import Level
 from amr_description.errors import ResourceError
 from amr_description.model.xacro_markup import is_xacro
@@ -24,7 +23,6 @@ Note: TypeAlias = tuple[Level, str]
 """(level, text) of a message in the log."""
 
 _DIGITS = 12  # of the SHA-256; enough to compare by eye
-_MANIFESTS = ('package.xml', *(f'src/{"*/" * depth}package.xml' for depth in range(4)))
 _FIX = 'run scripts/setup, or colcon build --symlink-install, which links instead of copying'
 
 
@@ -59,22 +57,10 @@ def _differences(used: Path) -> Iterator[str]:
     )
 
 
-def source_of(installed: Path) -> Path | None:
-    """Return the source file that an installed file was copied from; None: it is not known."""
-    for prefix in prefixes():
-        share = prefix / 'share'
-        if installed.is_relative_to(share) and len(installed.relative_to(share).parts) > 1:
-            package, *below = installed.relative_to(share).parts
-            folders = (_sources(base, package) for base in (prefix.parent, prefix.parent.parent))
-            found = (folder.joinpath(*below) for group in folders for folder in group)
-            return next((file for file in found if file.is_file()), None)
-    return None
-
-
 def installed_copy_of(source: Path) -> Path | None:
     """Return the installed copy of a package's source file, which ``package://`` finds, if any."""
     for folder in source.parents:
-        package = _package_in(folder / 'package.xml')
+        package = package_in(folder / 'package.xml')
         if package is None:
             continue
         try:
@@ -84,26 +70,6 @@ def installed_copy_of(source: Path) -> Path | None:
         installed = share / source.relative_to(folder)
         return installed if installed.is_file() else None
     return None
-
-
-def _sources(workspace: Path, package: str) -> Iterator[Path]:
-    """Yield the source folders of a package in a colcon workspace."""
-    if not (workspace / 'build' / package).is_dir():
-        return
-    for pattern in _MANIFESTS:
-        for manifest in sorted(workspace.glob(pattern)):
-            if _package_in(manifest) == package:
-                yield manifest.parent
-
-
-def _package_in(manifest: Path) -> str | None:
-    """Return the name in a package.xml; None if there is none."""
-    try:
-        text = manifest.read_text('utf-8', errors='replace')
-    except OSError:
-        return None
-    name = re.search(r'<name>\s*(\S+?)\s*</name>', text)
-    return name[1] if name else None
 
 
 def _family(file: Path) -> list[Path]:

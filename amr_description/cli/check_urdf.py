@@ -74,7 +74,7 @@ def main(argv: list[str]) -> int:
         return REFUSED_BY_URDFDOM
     try:
         text, source = _read(arguments.file, arguments.mappings)
-    except DescriptionError as error:
+    except (DescriptionError, ResourceError) as error:
         return _fail(error, REFUSED_BY_URDFDOM, arguments)
     try:
         drives, faults = _drives(arguments.controllers, text, source)
@@ -216,8 +216,12 @@ def _read(path: str, words: list[str]) -> tuple[str, str]:
     """
     Return the text, and what messages call the file.
 
-    ``words`` are arguments of a xacro file. Raises DescriptionError, UsageError.
+    ``words`` are arguments of a xacro file. Raises DescriptionError, ResourceError, UsageError.
     """
+    if path.startswith('package://'):
+        from amr_description.ament_index import path_of  # as in _file_finder: not at the top
+
+        path = str(path_of(path))
     mappings = mappings_of(words)
     if path == '-' and not mappings:
         return read_stream(sys.stdin.buffer, _STDIN), _STDIN

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from amr_description.ament_index import is_installed, package_prefix
+from amr_description.ament_index import is_installed, not_installed, package_prefix, sources_of
 from amr_description.bringup.stacks import STACKS
 from amr_description.errors import AmrError, UsageError
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES
-from amr_description.text import suggestion
+from amr_description.text import did_you_mean, suggestion
 
 _OURS = 'amr_description'
 _TUTORIALS = {'gazebo': 'simulation'}  # as the tutorial calls its launch file -> our stack
@@ -69,7 +69,8 @@ def _is_path(word: str) -> bool:
 def _of_package(package: str, file: str) -> str:
     if package in INSTEAD_OF_PACKAGES and not is_installed(package):
         raise AmrError(f"Package '{package}' not found: {INSTEAD_OF_PACKAGES[package]}")
-    share = package_prefix(package) / 'share' / package
+    prefix = package_prefix(package)
+    share = prefix / 'share' / package
     found = sorted(path for path in share.rglob(file) if path.is_file()) if _is_name(file) else []
     if len(found) > 1:
         paths = ', '.join(f"'{path}'" for path in found)
@@ -81,9 +82,12 @@ def _of_package(package: str, file: str) -> str:
         return _stack_file(found[0])
     if package == _OURS:
         return _ready_made(file)
+    sources = (each for folder in sources_of(package, prefix) for each in folder.rglob(file))
+    source = next(sources, None) if _is_name(file) else None
+    hint = not_installed(source) if source else did_you_mean(file, launchable_names(package))
     raise AmrError(
         f"file '{file}' was not found in the share directory of package '{package}' which is at "
-        f"'{share}'"
+        f"'{share}'{hint}"
     )
 
 

@@ -10,6 +10,7 @@ import sys
 from types import ModuleType
 from typing import Any
 
+from amr_description.ament_index import hint_at
 from amr_description.bringup import user_errors
 from amr_description.errors import AmrError, BringupError
 from amr_description.launch_api import gazebo_files
@@ -31,7 +32,6 @@ from amr_description.launch_api.substitutions import (
     SomeSubstitutions,
     text_of,
 )
-from amr_description.text import did_you_mean
 
 LOADERS: dict[str, Callable[[Path], LaunchDescription]] = {}
 """By the ending of a file, ``.xml``: how it is read; all others are Python."""
@@ -52,8 +52,7 @@ def read(path: Path) -> LaunchDescription:
             return gazebo_files.left_out(package, file, why)
         raise not_here(package, file, list(files))
     if not path.is_file():
-        near = [each.name for each in path.parent.glob('*')]
-        raise refusal(f"there is no launch file '{path}'{did_you_mean(path.name, near)}", '')
+        raise refusal(f"there is no launch file '{path}'{hint_at(path)}", '')
     loader = LOADERS.get(path.suffix, _from_python)
     try:
         return loader(path)

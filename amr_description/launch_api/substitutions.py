@@ -16,13 +16,13 @@ import subprocess
 from typing import Any, TypeAlias
 import uuid
 
-from amr_description.ament_index import executable_of, OWN_PACKAGE
+from amr_description.ament_index import executable_of, hint_at, OWN_PACKAGE
 from amr_description.errors import BringupError, ResourceError
 from amr_description.launch_api import opened_files
 from amr_description.launch_api.context import LaunchContext
 from amr_description.launch_api.counterparts import prefix_of, share_of
 from amr_description.launch_api.locations import at, Located, refusal
-from amr_description.text import did_you_mean, suggestion
+from amr_description.text import suggestion
 
 SomeSubstitutions: TypeAlias = Any
 """A text, a substitution, or a list of them, as in launch."""
@@ -295,10 +295,7 @@ def _without_a_file(command: str) -> str:
         return ''
     paths = (Path(word) for word in words if word.endswith(('.xacro', '.urdf')))
     path = next((each for each in paths if not each.exists()), None)
-    if path is None:
-        return ''
-    near = [each.name for each in path.parent.glob('*')]
-    return f": there is no file '{path}'{did_you_mean(path.name, near)}"
+    return '' if path is None else f": there is no file '{path}'{hint_at(path)}"
 
 
 class FileContent(Substitution):

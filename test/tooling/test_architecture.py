@@ -35,8 +35,9 @@ FEW_LINES = 80
 # plugins, joints of no tag, early mecanum drives, controllers to do without, what stands on legs
 # or on what is below, meshes that take long); trials, robots to learn in; the page's graph, its
 # two threads as types, slow pages; a mux and passthrough in the chain; launch files (commands at
-# their time, joysticks, tried one by one); Python halves of C++ packages; what clients of Nav2
-# ask; bags of SQLite; Python packages of ROS, with the many names of the originals:
+# their time, joysticks, tried one by one, sources not built);
+# Python halves of C++ packages; what clients of Nav2 ask; bags of SQLite;
+# Python packages of ROS, with the many names of the originals:
 # nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations,
 # diagnostic_updater, rosbag2_py (four of its names are also the bag's), launch_testing (14
 # modules), urdf_parser_py (15 of its names are also the model's), image_geometry, ros2node.api,
@@ -44,12 +45,12 @@ FEW_LINES = 80
 # a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
     'modules': 871,
-    'code lines': 101_216,
-    'small modules of one importer beside them': 39,
+    'code lines': 101_223,
+    'small modules of one importer beside them': 38,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_725,
+    'code lines of helpers in test files': 27_733,
 }
 
 BASE = {

@@ -143,6 +143,19 @@ def test_what_is_not_there_is_told_in_one_line(share, package, file, error, said
     assert str(told.value).count('\n') == 0
 
 
+def test_a_launch_file_that_is_in_the_source_alone_is_named_there(share, tmp_path):
+    (tmp_path / 'build/toys').mkdir(parents=True)
+    source = tmp_path / 'src/toys/launch/new.launch.py'
+    source.parent.mkdir(parents=True)
+    source.write_text(FOREIGN)
+    (tmp_path / 'src/toys/package.xml').write_text('<package><name>toys</name></package>')
+    (share / 'mine.launch.py').write_text(FOREIGN)
+    with pytest.raises(AmrError, match=f'; {source} is not installed: colcon build'):
+        find_launch_file('toys', 'new.launch.py', [])
+    with pytest.raises(AmrError, match=r'; did you mean mine\.launch\.py\?'):
+        find_launch_file('toys', 'mime.launch.py', [])
+
+
 def test_two_of_one_name_are_told(share):
     for folder in (share, share / 'more'):
         folder.mkdir(exist_ok=True)

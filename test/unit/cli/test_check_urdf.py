@@ -271,6 +271,15 @@ def test_unreadable_files_give_one_line(run, tmp_path, monkeypatch, name, conten
     assert err.count('\n') == 1
 
 
+def test_a_file_is_named_by_its_package_too(run):
+    uri = 'package://amr_description/urdf/{}.urdf'
+    assert run(uri.format('amr'))[0] == 0
+    code, out, err = run(uri.format('amt'))
+    assert (code, out) == (255, '')
+    assert err.startswith(f"error: '{uri.format('amt')}': no such file: ")
+    assert err.endswith('; did you mean amr.urdf?\n')
+
+
 def test_a_file_that_is_wrong_all_over_is_not_read_to_the_end(run):
     links = '\n'.join('<link/>' for _ in range(10_000))
     code, _, err = run(stdin=f'<robot name="r">{links}</robot>')

@@ -3,6 +3,7 @@
 """The files of a launch: which are used is said, and which copy of them is newer."""
 
 import os
+import re
 
 from fixtures.launch_files.packages import (
     first_in_the_index,
@@ -14,6 +15,7 @@ import pytest
 
 from amr_description.bringup.command_line import process_specs
 from amr_description.bringup.main import listing
+from amr_description.errors import BringupError
 
 URDF = """<robot name="r"><link name="base_link"/>
 <gazebo><plugin name="p" filename="libgz_ros2_control-system.so">
@@ -90,6 +92,31 @@ def test_a_source_that_was_edited_and_not_built_is_said(workspace, name):
     assert text.startswith(f'{share / name} (sha256 ')
     assert f'its source, {edited} (sha256 ' in text
     assert 'newer), is not the same; run scripts/setup, or colcon build' in text
+
+
+@pytest.mark.parametrize(
+    ('name', 'action'),
+    [
+        ('launch/new.launch.py', 'IncludeLaunchDescription("{path}")'),
+        ('config/new.yaml', 'Node(package="toys", executable="a", parameters=["{path}"])'),
+        ('urdf/new.xacro', 'LogInfo(msg=[Command("xacro {path}")])'),
+    ],
+)
+def test_a_file_that_is_in_the_source_alone_is_named_there(workspace, name, action):
+    source, share = workspace
+    launch_file = share / 'launch/other.launch.py'
+    launch_file.write_text(
+        'from launch import LaunchDescription\n'
+        'from launch.actions import IncludeLaunchDescription, LogInfo\n'
+        'from launch.substitutions import Command\n'
+        'from launch_ros.actions import Node\n'
+        'def generate_launch_description():\n'
+        f'    return LaunchDescription([{action.format(path=share / name)}])\n'
+    )
+    (source / name).write_text('')
+    hint = f'; {source / name} is not installed: colcon build, if setup.py or CMakeLists.txt'
+    with pytest.raises(BringupError, match=re.escape(hint)):
+        process_specs(stack_of(launch_file), share)
 
 
 def test_a_placeholder_is_the_file_of_that_name_in_the_package(workspace):
