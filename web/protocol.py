@@ -38,6 +38,7 @@ from typing import Any
 from amr_description.viewer import (
     bags,
     introspection,
+    marks,
     navigation,
     protocol,
     requests,
@@ -45,7 +46,7 @@ from amr_description.viewer import (
     states,
 )
 
-MESSAGES = (protocol, introspection, navigation, bags, requests)
+MESSAGES = (protocol, introspection, marks, navigation, bags, requests)
 """Modules whose dataclasses and types are in text frames, or in the heads of binary ones."""
 BINARY = (states, samples)
 """Modules of binary frames: their constants alone are for the page."""

@@ -14,6 +14,7 @@ numbers. A :class:`FieldReader` is made once for a layout and some paths, as ``r
 ``name[]``             of each element, in a list
 ``transforms[].x[].y`` of each element of each, in a list of lists
 ``ranges``             numbers of an array: a NumPy view of the message, without a copy
+``points``             messages of nothing but numbers of one type: a view, a row each
 ====================== ==========================================================================
 
 Where the parts stand depends on nothing but the lengths of the strings and sequences before them.
@@ -119,7 +120,7 @@ def steps_of(layout: FieldGroup, path: str) -> list[Step]:
         part = _below(part, step, shorten(path[:at]))
         steps.append(step[1] or (int(step[2]) if step[2] else None))
         at = step.end()
-    is_array = isinstance(part, Many) and isinstance(part.element, Number)
+    is_array = isinstance(part, Many) and row_of(part.element) is not None
     is_text = isinstance(part, Text) and not part.is_wide
     if not steps or not (is_array or is_text or isinstance(part, Number)):
         raise AmrError(f"'{shorten(path)}' is no number, but {_kind(part)}")
@@ -132,6 +133,21 @@ def part_at(layout: Layout, steps: Iterable[Step]) -> Layout:
         found = layout.field(str(step)) if isinstance(layout, FieldGroup) else None
         layout = layout.element if isinstance(layout, Many) else found or layout
     return layout
+
+
+def row_of(layout: Layout) -> tuple[Number, int] | None:
+    """Return the type of all numbers of a part, and how many there are; None: it has others."""
+    match layout:
+        case Number():
+            return layout, 1
+        case FieldGroup(fields=fields) if fields:
+            rows = [row_of(each) for _, each in fields]
+            first = rows[0]
+            if first is None or any(each is None or each[0] != first[0] for each in rows):
+                return None
+            return first[0], sum(each[1] for each in rows if each is not None)
+        case _:
+            return None
 
 
 def _no_path(path: str) -> str:
@@ -266,11 +282,14 @@ class _Walk(Cursor):
                 size = self.count()
                 place = self.at, f'{size}s'
                 self.go(size)
-            case Many(element=Number() as number, count=count):
+            case Many(element=element, count=count) if (row := row_of(element)) is not None:
+                number, width = row
                 count = self.count() if count is None else count
                 dtype = np.dtype(f'{ORDERS[self.order]}{number.code}')
+                if not isinstance(element, Number):
+                    dtype = np.dtype((dtype, (width,)))
                 self.arrays.append((self.align(number) if count else self.at, dtype, count))
-                self.go(count * number.size)
+                self.go(count * width * number.size)
                 return -len(self.arrays)
             case _:
                 raise AssertionError(layout)

@@ -205,6 +205,55 @@ class PathData:
 
 
 @dataclass(frozen=True, slots=True)
+class MarkerData:
+    """
+    A Marker; names are the message's.
+
+    Attributes:
+        pose: x y z qx qy qz qw, m.
+        scale: x y z.
+        color: r g b a.
+        lifetime: ns, 0: for ever.
+        points: float64 of the shape (n, 3).
+        colors: float32 of the shape (n, 4).
+        mesh: The name, and the bytes, of the file that it has with it.
+    """
+
+    header: Header
+    ns: str
+    id: int
+    type: int
+    action: int
+    pose: tuple[float, ...]
+    scale: tuple[float, ...]
+    color: tuple[float, ...]
+    lifetime: int
+    frame_locked: bool
+    points: Array
+    colors: Array
+    text: str
+    mesh_resource: str
+    mesh: tuple[str, Array]
+    mesh_use_embedded_materials: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PosesData:
+    """Of a PoseArray: x y z qx qy qz qw of each, m, float64 of the shape (n, 7)."""
+
+    header: Header
+    poses: Array
+
+
+@dataclass(frozen=True, slots=True)
+class PointsData:
+    """Of a PolygonStamped, or of a PointStamped: m, of the shape (n, 3)."""
+
+    header: Header
+    points: Array
+
+
+@dataclass(frozen=True, slots=True)
 class ContactData:
     """
     Two bodies that touch.
@@ -303,6 +352,46 @@ def _path(*values: Any) -> PathData:
 def _vectors(x: Sequence[float], y: Sequence[float], z: Sequence[float]) -> Array:
     """Return as many vectors, shape (n, 3)."""
     return np.array([x, y, z], dtype=float).reshape(3, -1).T
+
+
+def _marker(*values: Any) -> MarkerData:
+    ns, number, kind, action = values[3:7]
+    seconds, nanoseconds, is_locked, points, colors, text, resource, *mesh = values[21:]
+    name, data, uses_own = mesh
+    return MarkerData(
+        header=_header(*values[:3]),
+        ns=ns,
+        id=number,
+        type=kind,
+        action=action,
+        pose=values[7:14],
+        scale=values[14:17],
+        color=values[17:21],
+        lifetime=_time(seconds, nanoseconds),
+        frame_locked=bool(is_locked),
+        points=points,
+        colors=colors,
+        text=text,
+        mesh_resource=resource,
+        mesh=(name, data),
+        mesh_use_embedded_materials=bool(uses_own),
+    )
+
+
+def _markers(*columns: list[Any]) -> list[MarkerData]:
+    return [_marker(*each) for each in zip(*columns, strict=True)]
+
+
+def _poses(*values: Any) -> PosesData:
+    return PosesData(_header(*values[:3]), values[3])
+
+
+def _polygon(*values: Any) -> PointsData:
+    return PointsData(_header(*values[:3]), values[3])
+
+
+def _point(*values: Any) -> PointsData:
+    return PointsData(_header(*values[:3]), np.array([values[3:]], float))
 
 
 def _gz_contacts(*values: Any) -> ContactsData:
@@ -420,6 +509,35 @@ PATH = Row(
         *(f'poses[].pose.position.{axis}' for axis in 'xyz'),
     ),
     _path,
+)
+_MARKER = (
+    *_HEADER,
+    'ns',
+    'id',
+    'type',
+    'action',
+    *(f'pose.{path}' for path in _POSE),
+    *(f'scale.{axis}' for axis in 'xyz'),
+    *(f'color.{part}' for part in 'rgba'),
+    'lifetime.sec',
+    'lifetime.nanosec',
+    'frame_locked',
+    'points',
+    'colors',
+    'text',
+    'mesh_resource',
+    'mesh_file.filename',
+    'mesh_file.data',
+    'mesh_use_embedded_materials',
+)
+MARKER = Row('visualization_msgs/msg/Marker', _MARKER, _marker)
+MARKERS = Row(
+    'visualization_msgs/msg/MarkerArray', tuple(f'markers[].{path}' for path in _MARKER), _markers
+)
+POSES = Row('geometry_msgs/msg/PoseArray', (*_HEADER, 'poses'), _poses)
+POLYGON = Row('geometry_msgs/msg/PolygonStamped', (*_HEADER, 'polygon.points'), _polygon)
+POINT = Row(
+    'geometry_msgs/msg/PointStamped', (*_HEADER, *(f'point.{axis}' for axis in 'xyz')), _point
 )
 CONTACTS = Row(
     'ros_gz_interfaces/msg/Contacts',

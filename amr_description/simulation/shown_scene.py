@@ -25,7 +25,7 @@ from amr_description.sim.static_geometry import visible_shapes
 from amr_description.simulation.readings import Image, Motion, Scan
 from amr_description.simulation.robot import Robot
 from amr_description.simulation.sensors import IMAGE, SCAN
-from amr_description.viewer import protocol
+from amr_description.viewer import marks, protocol
 from amr_description.viewer.description import describe_robot, DescribedRobot
 from amr_description.viewer.protocol import (
     Command,
@@ -213,7 +213,7 @@ def world_of(engine: Engine, simulator: str) -> protocol.World:
     return protocol.World(
         simulator,
         tuple(
-            protocol.Shape(
+            marks.Shape(
                 name=each.name,
                 kind=each.kind.value,
                 size=each.size,

@@ -65,19 +65,13 @@ def describe_robot(robot: str, text: str) -> DescribedRobot:
             continue
         tried.add(uri)
         try:
-            file = resolve_uri(uri)
-            data = _read(file)
-            content: Path | bytes = file
-            suffix = file.suffix.lower()
-            if suffix in _CONVERTED:
-                content, suffix = stl_bytes(load_mesh(file)), '.stl'
+            file = served_file(uri)
         except (ResourceError, MeshError) as error:
             told.append(Finding('warning', None, None, f'{uri} cannot be drawn: {error}', ''))
             continue
-        name = f'{digest(data)}{suffix}'
-        meshes[uri], files[name] = f'/mesh/{name}', content
-        if suffix == '.dae':
-            wanted += _images_of_collada(uri, data)
+        meshes[uri], files[file.name] = f'/mesh/{file.name}', file.content
+        if file.name.endswith('.dae'):
+            wanted += _images_of_collada(uri, file.data)
     message = Model(
         robot=robot,
         urdf=text,
@@ -114,6 +108,40 @@ def _images_of_collada(uri: str, data: bytes) -> Iterator[str]:
         name = unescape(found)
         if Path(name).suffix.lower() in _IMAGES and not name.startswith('/') and '://' not in name:
             yield folder + name.removeprefix('./')
+
+
+@dataclass(frozen=True, slots=True)
+class ServedFile:
+    """A mesh or image: the name in its URL, what is served, and what is in the file itself."""
+
+    name: str
+    content: Path | bytes
+    data: bytes
+
+
+def served_file(uri: str, given: tuple[str, bytes] | None = None) -> ServedFile:
+    """
+    Read a mesh or image for pages.
+
+    Args:
+        uri: Of the file.
+        given: Its name and what is in it, of one that came with a message.
+
+    Raises:
+        ResourceError: There is no such file, or it is of another kind.
+        MeshError: It cannot be converted.
+    """
+    file = resolve_uri(uri) if given is None else Path(given[0] or uri)
+    if given is not None:
+        _check_kind(file)
+    data = _read(file) if given is None else given[1]
+    content: Path | bytes = file if given is None else data
+    suffix = file.suffix.lower()
+    if suffix in _CONVERTED:
+        if given is not None:
+            raise ResourceError(f'a {suffix} that comes with a message is not drawn')
+        content, suffix = stl_bytes(load_mesh(file)), '.stl'
+    return ServedFile(f'{digest(data)}{suffix}', content, data)
 
 
 def _read(file: Path) -> bytes:

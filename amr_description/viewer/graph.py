@@ -9,11 +9,11 @@ name belongs to the robot with the longest namespace that contains it.
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Set as AbstractSet
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from amr_description.viewer.joint_groups import ACTIONS, is_joint_command, POSITIONS, TRAJECTORY
 from amr_description.viewer.navigation import Navigator
-from amr_description.viewer.protocol import Command, SensorInfo
+from amr_description.viewer.protocol import Command, SensorInfo, SensorKind
 
 STRING = 'std_msgs/msg/String'
 TWISTS = ('geometry_msgs/msg/TwistStamped', 'geometry_msgs/msg/Twist')
@@ -39,12 +39,16 @@ GZ_CONTACTS = 'ros_gz_interfaces/msg/Contacts'
 CLASSIC_CONTACTS = 'gazebo_msgs/msg/ContactsState'
 OCCUPANCY_GRID = 'nav_msgs/msg/OccupancyGrid'
 PATH = 'nav_msgs/msg/Path'
+MARKER = 'visualization_msgs/msg/Marker'
+POSES = 'geometry_msgs/msg/PoseArray'
+POLYGON = 'geometry_msgs/msg/PolygonStamped'
+POINT = 'geometry_msgs/msg/PointStamped'
 GOAL = 'geometry_msgs/msg/PoseStamped'
 INITIAL_POSE = 'geometry_msgs/msg/PoseWithCovarianceStamped'
 NAVIGATE = 'nav2_msgs/action/NavigateToPose'
 NAVIGATE_FEEDBACK = f'{NAVIGATE}_FeedbackMessage'
 """What a server of the action publishes: its services have names for as long as it has clients."""
-SENSORS: Mapping[str, Literal['scan', 'cloud', 'picture', 'range', 'contacts', 'map', 'path']] = {
+SENSORS: Mapping[str, SensorKind] = {
     LASER_SCAN: 'scan',
     CLOUD: 'cloud',
     IMAGE: 'picture',
@@ -54,9 +58,15 @@ SENSORS: Mapping[str, Literal['scan', 'cloud', 'picture', 'range', 'contacts', '
     CLASSIC_CONTACTS: 'contacts',
     OCCUPANCY_GRID: 'map',
     PATH: 'path',
+    MARKER: 'markers',
+    MARKERS: 'markers',
+    POSES: 'poses',
+    POLYGON: 'polygon',
+    POINT: 'point',
 }
 """Type of a topic -> how a page shows it."""
-
+_OF_ALL = {OCCUPANCY_GRID, PATH, MARKER, MARKERS, POSES, POLYGON, POINT}
+"""What need not be of a robot."""
 _COMPRESSED = '/compressed'
 """What image_transport appends to the topic of the same pictures as JPEG or PNG."""
 _GOALS = '/_action/send_goal'
@@ -144,7 +154,7 @@ def discover(names: GraphNames) -> DiscoveredGraph:
         ),
         simulators,
         _tf_namespaces(names),
-        tuple(_sensors(names, ids)),
+        tuple(_sensors(names, ids, simulators)),
         tuple(_navigators(names, ids)),
     )
 
@@ -270,13 +280,18 @@ def _simulators(names: GraphNames) -> Iterator[FoundSimulator]:
             )
 
 
-def _sensors(names: GraphNames, ids: Iterable[str]) -> Iterator[SensorInfo]:
+def _sensors(
+    names: GraphNames, ids: Iterable[str], simulators: Iterable[FoundSimulator]
+) -> Iterator[SensorInfo]:
     """Yield the topics of sensors of robots that are published, each picture once."""
+    worlds = {each.world for each in simulators}
     for topic, types in sorted(names.published.items()):
         message = next((each for each in types if each in SENSORS), None)
         robot = robot_of(topic, ids)
-        if robot is None and message in (OCCUPANCY_GRID, PATH):
+        if robot is None and message in _OF_ALL:
             robot = ''  # such as a map that all robots of a fleet have
+        if topic in worlds:
+            continue  # it is drawn as the world
         if message is None or robot is None or _is_shown_otherwise(names, topic, message):
             continue
         yield SensorInfo(topic, robot, SENSORS[message], message)

@@ -20,13 +20,11 @@ from typing import Any, ClassVar, Literal, TypeAlias
 from amr_description.model.frames import Quaternion, Vector
 from amr_description.viewer.bags import BagWriting, Playhead, Recording
 from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
+from amr_description.viewer.marks import MarkBatch, MarkText, Shape
 from amr_description.viewer.navigation import GoalStatus, Navigator
 
 PROTOCOL = 'amr.v1'
 """The WebSocket's subprotocol: a page of another version is refused."""
-
-Colour: TypeAlias = tuple[float, float, float, float]
-"""Red, green, blue, alpha in 0..1."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,17 +85,24 @@ class SimulatorInfo:
     worlds: tuple[str, ...]  #: the names of those that ``load_world`` takes
 
 
+SensorKind: TypeAlias = Literal[
+    'scan', 'cloud', 'picture', 'range', 'contacts', 'map', 'path', 'markers', 'poses', 'polygon',
+    'point',
+]  # fmt: skip
+"""How a topic is shown: what a sensor measured, or what others draw."""
+
+
 @dataclass(frozen=True, slots=True)
 class SensorInfo:
     """
-    A topic of a sensor, or of a map or a path, which the page shows as it does sensors.
+    A topic of a sensor, or of maps, paths and markers, which the page shows as it does sensors.
 
     Pictures that come raw and compressed are there once.
     """
 
     topic: str
-    robot: str  #: whose namespace holds the topic; empty: a map or a path in none of theirs
-    kind: Literal['scan', 'cloud', 'picture', 'range', 'contacts', 'map', 'path']
+    robot: str  #: whose namespace holds the topic; empty: a map, path or marker in none of theirs
+    kind: SensorKind
     message: str  #: its type: "sensor_msgs/msg/LaserScan"
 
 
@@ -149,19 +154,6 @@ class Model:
     meshes: Mapping[str, str]
     joints: tuple[JointInfo, ...]  #: all that move, in the order of the URDF
     findings: tuple[Finding, ...]  #: of check_urdf
-
-
-@dataclass(frozen=True, slots=True)
-class Shape:
-    """A static shape of the world."""
-
-    name: str
-    kind: Literal['box', 'sphere', 'cylinder', 'capsule', 'plane', 'triangles']
-    size: Vector  #: whole extents along x, y, z; a plane's are 0 where it has no end
-    position: Vector
-    orientation: Quaternion
-    colour: Colour
-    points: tuple[float, ...] = ()  #: of 'triangles' only: x, y, z of three corners a triangle
 
 
 @dataclass(frozen=True, slots=True)
@@ -486,6 +478,23 @@ class Route:
 
 
 @dataclass(frozen=True, slots=True)
+class Marks:
+    """
+    The head of what others draw: Marker, MarkerArray, PoseArray, PolygonStamped, PointStamped.
+
+    All that there is, at each change. The numbers of each batch follow, one batch after the other.
+    """
+
+    type: ClassVar[str] = 'marks'
+    origin: Origin  #: of the newest; ``frame`` of the first batch
+    count: int  #: shapes, lines and points that there are; fewer may follow, evenly thinned
+    shown: int
+    batches: tuple[MarkBatch, ...]
+    texts: tuple[MarkText, ...]
+    faults: tuple[str, ...]  #: why some are not drawn, or not as told, one line each
+
+
+@dataclass(frozen=True, slots=True)
 class AnyMessage:
     """
     The head of the latest message of any topic, see ``messages`` of Watch.
@@ -542,6 +551,7 @@ Head: TypeAlias = (
     | Contacts
     | OccupancyGrid
     | Route
+    | Marks
     | AnyMessage
     | Values
     | Unreadable

@@ -41,16 +41,17 @@ FEW_LINES = 80
 # nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations,
 # diagnostic_updater, rosbag2_py (four of its names are also the bag's), launch_testing (14
 # modules), urdf_parser_py (15 of its names are also the model's), image_geometry, ros2node.api,
-# interactive_markers, turtlebot4_navigation. Of helpers: fakes of processes, clients of markers,
-# a base with a dock, evo and KISS-ICP, colours of workers.
+# interactive_markers, turtlebot4_navigation; what RViz draws (markers, poses), on the page. Of
+# helpers: fakes of processes, clients of markers, a base with a dock, evo and KISS-ICP, colours of
+# workers.
 BUDGETS = {
-    'modules': 871,
-    'code lines': 101_223,
-    'small modules of one importer beside them': 38,
+    'modules': 875,
+    'code lines': 102_024,
+    'small modules of one importer beside them': 37,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_733,
+    'code lines of helpers in test files': 27_844,
 }
 
 BASE = {

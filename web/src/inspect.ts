@@ -4,6 +4,7 @@
 import type { App } from './app';
 import type { SensorsPanel } from './panels/sensors';
 import type { Recorder } from './plots/recorder';
+import type { MarkNumbers } from './scene/marks';
 import type { NavigationNumbers } from './scene/navigation';
 import type { Scene } from './scene/scene';
 import type { SensorNumbers } from './scene/sensors';
@@ -26,6 +27,7 @@ export interface SceneNumbers {
   trails: Record<string, [truth: number, odometry: number]>; // points, by robot
   sensors: Record<string, SensorNumbers>; // by topic
   navigation: NavigationNumbers;
+  marks: Record<string, MarkNumbers>;
 }
 
 export interface Inspection {
@@ -91,5 +93,6 @@ function numbersOf(scene: Scene | null, robot: string): SceneNumbers | null {
         trails: scene.trailSizes(),
         sensors: scene.sensorNumbers(),
         navigation: scene.navigationNumbers(),
+        marks: scene.markNumbers(),
       };
 }

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-// Written by web/protocol.py from protocol.py, introspection.py, navigation.py, bags.py, requests.py, states.py, samples.py in
+// Written by web/protocol.py from protocol.py, introspection.py, marks.py, navigation.py, bags.py, requests.py, states.py, samples.py in
 // amr_description/viewer/; change those and run it: python web/protocol.py
 
 /**
@@ -22,9 +22,6 @@ export type Vector = [number, number, number];
 
 /** The WebSocket's subprotocol: a page of another version is refused. */
 export const PROTOCOL = 'amr.v1';
-
-/** Red, green, blue, alpha in 0..1. */
-export type Colour = [number, number, number, number];
 
 /** The first message of every connection. */
 export interface Hello {
@@ -92,16 +89,20 @@ export interface SimulatorInfo {
   worlds: string[];
 }
 
+/** How a topic is shown: what a sensor measured, or what others draw. */
+export type SensorKind =
+  | 'scan' | 'cloud' | 'picture' | 'range' | 'contacts' | 'map' | 'path' | 'markers' | 'poses' | 'polygon' | 'point';
+
 /**
- * A topic of a sensor, or of a map or a path, which the page shows as it does sensors.
+ * A topic of a sensor, or of maps, paths and markers, which the page shows as it does sensors.
  *
  * Pictures that come raw and compressed are there once.
  */
 export interface SensorInfo {
   topic: string;
-  /** whose namespace holds the topic; empty: a map or a path in none of theirs */
+  /** whose namespace holds the topic; empty: a map, path or marker in none of theirs */
   robot: string;
-  kind: 'scan' | 'cloud' | 'picture' | 'range' | 'contacts' | 'map' | 'path';
+  kind: SensorKind;
   /** its type: "sensor_msgs/msg/LaserScan" */
   message: string;
 }
@@ -156,19 +157,6 @@ export interface Model {
   joints: JointInfo[];
   /** of check_urdf */
   findings: Finding[];
-}
-
-/** A static shape of the world. */
-export interface Shape {
-  name: string;
-  kind: 'box' | 'sphere' | 'cylinder' | 'capsule' | 'plane' | 'triangles';
-  /** whole extents along x, y, z; a plane's are 0 where it has no end */
-  size: Vector;
-  position: Vector;
-  orientation: Quaternion;
-  colour: Colour;
-  /** of 'triangles' only: x, y, z of three corners a triangle */
-  points: number[];
 }
 
 /** The static shapes of the world, in its frame `world`. Sent on every change. */
@@ -477,6 +465,24 @@ export interface Route {
 }
 
 /**
+ * The head of what others draw: Marker, MarkerArray, PoseArray, PolygonStamped, PointStamped.
+ *
+ * All that there is, at each change. The numbers of each batch follow, one batch after the other.
+ */
+export interface Marks {
+  type: 'marks';
+  /** of the newest; `frame` of the first batch */
+  origin: Origin;
+  /** shapes, lines and points that there are; fewer may follow, evenly thinned */
+  count: number;
+  shown: number;
+  batches: MarkBatch[];
+  texts: MarkText[];
+  /** why some are not drawn, or not as told, one line each */
+  faults: string[];
+}
+
+/**
  * The head of the latest message of any topic, see `messages` of Watch.
  *
  * The message follows as JSON, an object by the names of the fields. What JSON cannot say, and
@@ -535,6 +541,7 @@ export type Head =
   | Contacts
   | OccupancyGrid
   | Route
+  | Marks
   | AnyMessage
   | Values
   | Unreadable;
@@ -688,6 +695,62 @@ export interface FieldInfo {
   fields: FieldInfo[];
   /** the default, of what is neither a message nor an array */
   value: unknown;
+}
+
+/** What is drawn: the shapes of a world, and of what others draw the parts of a head. */
+
+/** Red, green, blue, alpha in 0..1. */
+export type Colour = [number, number, number, number];
+
+/** A static shape of the world. */
+export interface Shape {
+  name: string;
+  kind: 'box' | 'sphere' | 'cylinder' | 'capsule' | 'plane' | 'triangles';
+  /** whole extents along x, y, z; a plane's are 0 where it has no end */
+  size: Vector;
+  position: Vector;
+  orientation: Quaternion;
+  colour: Colour;
+  /** of 'triangles' only: x, y, z of three corners a triangle */
+  points: number[];
+}
+
+/**
+ * Marks of one kind in one frame, f32, m.
+ *
+ * Of shapes and meshes: x, y, z, quaternion, scale along x, y, z, r, g, b. Of lines: two ends,
+ * then r, g, b of each. Of points and corners of triangles: x, y, z, r, g, b. Colours are sRGB.
+ */
+export interface MarkBatch {
+  /** 'cone': of height 1 from its base up, diameter 1; all others about their middle */
+  kind: 'box' | 'sphere' | 'cylinder' | 'cone' | 'mesh' | 'lines' | 'points' | 'triangles';
+  /** of TF */
+  frame: string;
+  /** s, when it was where it is; null: it goes with its frame */
+  stamp: number | null;
+  /** of shapes, lines, points, corners */
+  count: number;
+  /** 0..1 */
+  opacity: number;
+  /** m, the width of lines and points; 0: two pixels */
+  size: number;
+  /** of a mesh: its name */
+  resource: string;
+  /** … where the page fetches it: "/mesh/3f2a….stl" */
+  address: string;
+  /** … whether its own colours do not count */
+  is_tinted: boolean;
+}
+
+/** A text that faces the viewer. */
+export interface MarkText {
+  text: string;
+  frame: string;
+  stamp: number | null;
+  position: Vector;
+  /** m, of a letter */
+  height: number;
+  colour: Colour;
 }
 
 /**

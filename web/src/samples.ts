@@ -1,7 +1,7 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** Samples of topics, as protocol.ts defines them, decoded without a copy of what they hold. */
-import { HEAD_AT, SAMPLE_KIND, type Channel, type Head, type Values } from './protocol';
+import { HEAD_AT, SAMPLE_KIND, type Channel, type Head, type MarkBatch, type Marks, type Values } from './protocol';
 import { BadState } from './state';
 
 const FLOAT_BYTES = 4;
@@ -10,7 +10,7 @@ const POINT_FLOATS = 3;
 /** Bytes of the colour of a point. */
 const COLOUR_BYTES = { rgb: 3, intensity: 4, none: 0 } as const;
 const TYPES: ReadonlySet<string> = new Set<Head['type']>([
-  'scan', 'cloud', 'picture', 'range', 'contacts', 'map', 'path', 'message', 'values', 'unreadable',
+  'scan', 'cloud', 'picture', 'range', 'contacts', 'map', 'path', 'marks', 'message', 'values', 'unreadable',
 ]);
 
 /** A sample: its head, and what follows it, whole and as numbers. */
@@ -81,6 +81,24 @@ export function pointsOf({ head, floats, bytes }: Sample): {
     rgb: colouring === 'rgb' ? rgb : null,
     intensities: colouring === 'intensity' ? intensities : null,
   };
+}
+
+/** Numbers of a shape or a mesh, and of each line, point and corner. */
+const MARK_FLOATS = 13;
+const FLOATS_OF: Partial<Record<MarkBatch['kind'], number>> = { lines: 12, points: 6, triangles: 6 };
+
+/** The batches of marks, and the numbers of each. Throws {@link BadState}: there are not as many. */
+export function batchesOf({ head, floats }: Sample<Marks>): [MarkBatch, Float32Array][] {
+  let at = 0;
+  const batches = head.batches.map((batch): [MarkBatch, Float32Array] => {
+    const begin = at;
+    at += batch.count * (FLOATS_OF[batch.kind] ?? MARK_FLOATS);
+    return [batch, floats.subarray(begin, at)];
+  });
+  if (at !== floats.length) {
+    throw new BadState(`${floats.length} numbers of marks, of which ${at} are told`);
+  }
+  return batches;
 }
 
 /** A message as the node writes it; see AnyMessage for the objects whose keys begin with #. */

@@ -23,6 +23,9 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``sensors.py``          … of sensors
 ``navigation_samples.py`` … maps and paths as samples
 ``sensor_samples.py``   … converted for the page
+``marks.py``            … what markers, poses, polygons and points draw
+``marker_store.py``     … those of markers, as messages add and delete them
+``marker_feed.py``      the markers of a topic: what all messages have drawn
 ``source.py``           what publishes on a topic, and a subscription that hears all of it
 ``newest_feed.py``      a topic of which pages are shown the newest message
 ``message_feed.py``     … of any type: the latest message, whole

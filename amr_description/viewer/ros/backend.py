@@ -359,7 +359,7 @@ class GraphBackend:
         for each in self._robots.values():
             if each.described is not None and name in each.described.files:
                 return each.described.files[name]
-        return None
+        return self._graph.file(name)
 
     # --- called when the graph has changed -------------------------------------------------------
 

@@ -8,7 +8,9 @@ server's thread uses, beside ``states.sources``. Both are replaced as a whole an
 """
 
 from collections.abc import Mapping, Sequence, Set as AbstractSet
+from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.srv import GetParameters
@@ -220,7 +222,7 @@ class GraphMonitor:
     def _poll(self) -> None:
         """Compare the graph with what is connected."""
         self._forget_dead_clock()
-        found = discover(names_in_graph(self._node))
+        found = self._with_drawn(discover(names_in_graph(self._node)))
         if found != self.found:
             self._connect(found)
             self._update_sources()
@@ -231,6 +233,21 @@ class GraphMonitor:
         self.topics.refresh()
         self.introspection.poll()
         self.observer.graph_polled()
+
+    def _with_drawn(self, found: DiscoveredGraph) -> DiscoveredGraph:
+        """Keep the topics of markers whose publishers have gone: what they drew stays."""
+        topics = {each.topic for each in found.sensors}
+        robots = {'', *(each.id for each in found.robots)}
+        kept = [
+            each
+            for each in self.topics.drawn()
+            if each.topic not in topics and each.robot in robots
+        ]
+        return replace(found, sensors=(*found.sensors, *kept)) if kept else found
+
+    def file(self, name: str) -> Path | bytes | None:
+        """Return a mesh that a marker names; on the server's thread."""
+        return self.topics.file(name)
 
     def _forget_dead_clock(self) -> None:
         """Stamp no command with the time of a simulation that has ended: it would be too old."""

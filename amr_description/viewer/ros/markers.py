@@ -14,7 +14,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
 from amr_description.ros.messages import transform_of
-from amr_description.viewer import protocol
+from amr_description.viewer import marks
 from amr_description.viewer.graph import robot_of
 from amr_description.viewer.protocol import DiagnosticItem, Diagnostics
 
@@ -36,7 +36,7 @@ _LEVELS = {
 }
 
 
-def shapes_of(message: MarkerArray) -> tuple[protocol.Shape, ...]:
+def shapes_of(message: MarkerArray) -> tuple[marks.Shape, ...]:
     """Return the shapes that a page draws; markers with NaN or infinity are left out."""
     shapes = (
         _shape(marker)
@@ -46,12 +46,12 @@ def shapes_of(message: MarkerArray) -> tuple[protocol.Shape, ...]:
     return tuple(shape for shape in shapes if _is_finite(shape))
 
 
-def _is_finite(shape: protocol.Shape) -> bool:
+def _is_finite(shape: marks.Shape) -> bool:
     numbers = (shape.size, shape.position, shape.orientation, shape.colour, shape.points)
     return all(math.isfinite(number) for each in numbers for number in each)
 
 
-def _shape(marker: Any) -> protocol.Shape:
+def _shape(marker: Any) -> marks.Shape:
     pose = transform_of(marker.pose)
     color, scale = marker.color, marker.scale
     kind, size, position = _KINDS[marker.type], (scale.x, scale.y, scale.z), pose.translation
@@ -67,7 +67,7 @@ def _shape(marker: Any) -> protocol.Shape:
         points = tuple(
             value for p in marker.points for value in (p.x * scale.x, p.y * scale.y, p.z * scale.z)
         )
-    return protocol.Shape(
+    return marks.Shape(
         name=marker.text or f'{marker.ns}/{marker.id}',
         kind=kind,  # type: ignore[arg-type]
         size=size,

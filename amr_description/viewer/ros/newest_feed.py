@@ -5,19 +5,30 @@
 from abc import ABC, abstractmethod
 import asyncio
 from collections.abc import Callable
+from typing import Protocol
 
 from amr_description.errors import AmrError
-from amr_description.ros.polled_topic import NumberedMessage, PolledTopic
+from amr_description.ros.polled_topic import NumberedMessage
 from amr_description.viewer.ros.source import SourceTopic
 from amr_description.viewer.ros.topic_rate import Rate
+
+
+class NumberedTopic(Protocol):
+    """A topic whose messages are polled."""
+
+    def take_numbered(self) -> NumberedMessage | None:
+        """Return the next message; None: none came. On any thread."""
+
+    def destroy(self) -> None:
+        """Unsubscribe."""
 
 
 class NewestFeed(ABC):
     """One topic; made and destroyed on the ROS thread, polled on the server's thread."""
 
-    def __init__(self, subscribe: Callable[[], PolledTopic[bytes] | SourceTopic]) -> None:
+    def __init__(self, subscribe: Callable[[], NumberedTopic]) -> None:
         """``subscribe`` may raise AmrError: then pages are told it once, in place of samples."""
-        self._topic: PolledTopic[bytes] | SourceTopic | None = None
+        self._topic: NumberedTopic | None = None
         self._fault: bytes | None = None
         self._rate = Rate()
         self._due = 0.0

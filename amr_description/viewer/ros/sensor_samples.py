@@ -7,7 +7,7 @@ Pure, on any thread. A message that is broken, or of a kind that a page cannot s
 sample that says so in one line.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 import math
 from typing import TypeAlias
@@ -35,8 +35,13 @@ from amr_description.viewer.graph import (
     GZ_CONTACTS,
     IMAGE,
     LASER_SCAN,
+    MARKER,
+    MARKERS,
     OCCUPANCY_GRID,
     PATH,
+    POINT,
+    POLYGON,
+    POSES,
     RANGE,
 )
 from amr_description.viewer.pictures import picture_of_file, picture_of_pixels, SmallPicture
@@ -51,6 +56,8 @@ from amr_description.viewer.protocol import (
     Scan,
     Unreadable,
 )
+from amr_description.viewer.ros.marker_store import marker_sample, markers_sample
+from amr_description.viewer.ros.marks import point_sample, polygon_sample, poses_sample
 from amr_description.viewer.ros.navigation_samples import frame_name, grid_sample, path_sample
 from amr_description.viewer.samples import (
     encode_sample,
@@ -68,7 +75,7 @@ _SHOWN_CONTACTS = 32
 _MOST_PLACES = 256
 """Points of contact that are sent."""
 
-Parts: TypeAlias = tuple[np.ndarray | bytes, ...]
+Parts: TypeAlias = Sequence[np.ndarray | bytes]
 Converter: TypeAlias = Callable[[bytes, Origin], tuple[Head, Parts]]
 """Makes a head, and what follows it, of a message."""
 
@@ -87,6 +94,11 @@ def sample_of(
         is_whole: Whether all points of a cloud are shown.
     """
     convert = _whole_cloud if is_whole and message_type == CLOUD else CONVERTERS[message_type]
+    return converted(convert, data, topic, rate)
+
+
+def converted(convert: Converter, data: bytes, topic: str, rate: float | None) -> bytes:
+    """Return the frame of a sample that is made of a message so, or why there is none."""
     origin = Origin(topic, '', 0.0, rate)
     try:
         with np.errstate(all='ignore'):  # what is published may be any number
@@ -208,5 +220,10 @@ CONVERTERS: Mapping[str, Converter] = {
     CLASSIC_CONTACTS: _classic_contacts,
     OCCUPANCY_GRID: grid_sample,
     PATH: path_sample,
+    MARKER: marker_sample,
+    MARKERS: markers_sample,
+    POSES: poses_sample,
+    POLYGON: polygon_sample,
+    POINT: point_sample,
 }
 """By the type of the message."""

@@ -22,13 +22,16 @@ _FASTEST = {
     'contacts': 30.0,
     'map': 2.0,
     'path': 10.0,
+    'poses': 10.0,
+    'polygon': 10.0,
+    'point': 10.0,
 }
 """Samples per second that pages are sent, at most."""
-_SLOW = {'picture', 'cloud', 'map', 'path'}
+_SLOW = {'picture', 'cloud', 'map', 'path', 'poses'}
 """What takes long enough to be left to another thread."""
 _WHOLE_PERIOD = 0.5
 """s between two clouds of which all points are sent, at least."""
-KEPT = {'map', 'path'}
+KEPT = {'map', 'path', 'poses', 'polygon', 'point'}
 """What may be published once, for those who subscribe later, too."""
 
 

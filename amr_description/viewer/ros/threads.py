@@ -11,6 +11,7 @@ The server's thread sees the graph as a :class:`GraphView`, and its robots as
 import asyncio
 from collections.abc import Callable, Mapping, Sequence, Set as AbstractSet
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Protocol, TypeVar
 
 from rclpy.executors import Executor
@@ -105,6 +106,9 @@ class GraphView(Protocol):
 
     def take_samples(self, wanted: AbstractSet[tuple[Channel, str]]) -> Sequence[Sample]:
         """Return new samples of these channels, and of plotted values."""
+
+    def file(self, name: str) -> Path | bytes | None:
+        """Return a mesh that a marker names, by the name in its address; None: none does."""
 
     def latest(self, part: Part) -> ServerMessage | None:
         """Return what a page that begins to show a part is sent at once; None: nothing yet."""

@@ -10,6 +10,7 @@ server's thread polls it.
 
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set as AbstractSet
 from dataclasses import dataclass
+from pathlib import Path
 import time
 from typing import TypeAlias
 
@@ -18,12 +19,13 @@ from rclpy.node import Node
 from amr_description.viewer.backend import Watched
 from amr_description.viewer.protocol import Channel, SensorInfo
 from amr_description.viewer.ros.field_feed import FieldFeed
+from amr_description.viewer.ros.marker_feed import MarkerFeed
 from amr_description.viewer.ros.message_feed import MessageFeed
 from amr_description.viewer.ros.sensors import KEPT, SensorFeed
 from amr_description.viewer.ros.source import source_of, TopicSource
 from amr_description.viewer.samples import Sample
 
-Feed: TypeAlias = SensorFeed | MessageFeed | FieldFeed
+Feed: TypeAlias = SensorFeed | MarkerFeed | MessageFeed | FieldFeed
 ReceiveTime: TypeAlias = Callable[[int], float]
 """When something was received, system time, ns -> the time of the states then, s."""
 
@@ -85,6 +87,19 @@ class TopicFeeds:
             if frame is not None
         ]
 
+    def file(self, name: str) -> Path | bytes | None:
+        """Return a mesh that a marker names, by the name in its address; None: none does."""
+        found = (each.files.get(name) for each in self._markers)
+        return next((each for each in found if each is not None), None)
+
+    def drawn(self) -> list[SensorInfo]:
+        """Return the topics by which markers were drawn that are there."""
+        return [each.info for each in self._markers if each.is_drawn]
+
+    @property
+    def _markers(self) -> list[MarkerFeed]:
+        return [each for each in self._feeds.values() if isinstance(each, MarkerFeed)]
+
     def refresh(self) -> None:
         """Look again for the topics that are shown, and subscribe to what has come or changed."""
         watched, before = self._watched, self._feeds
@@ -117,6 +132,8 @@ class TopicFeeds:
                 yield _Key('values', topic, source)
 
     def _feed(self, key: _Key) -> Feed:
+        if isinstance(key.of, SensorInfo) and key.of.kind == 'markers':
+            return MarkerFeed(self._node, key.of, self._receive_time)
         if isinstance(key.of, SensorInfo):
             return SensorFeed(self._node, key.of, key.source)
         if key.channel == 'message':

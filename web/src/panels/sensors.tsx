@@ -9,6 +9,7 @@ import type { Sample } from '../samples';
 import { PictureCanvas } from '../sensors/canvas';
 import type { Sensing } from '../sensors/sensing';
 import { measured, timing } from '../sensors/words';
+import { isMap } from '../scene/placement';
 import type { State } from '../state';
 import { Chip, Switch } from '../ui';
 import { panelOf, type PanelProps } from './component';
@@ -45,7 +46,7 @@ function Sensors(props: SensorsProps) {
       <ul class="rows sensors">
         {here.length === 0 && (
           <li class="empty">
-            No sensor of this robot publishes: no scan, cloud, picture, range, contact, map or path.
+            No sensor of this robot publishes: no scan, cloud, picture, range, contact, map, path or marker.
           </li>
         )}
         {here.map((info) => (
@@ -95,6 +96,11 @@ function Words({ info, sensing, state }: SensorProps) {
       <span class="fine measured" data-tone={isUnreadable ? 'warning' : undefined}>
         {homeless(info, sample, now) ?? measured(sample, now.time)}
       </span>
+      {sample.head.type === 'marks' && sample.head.faults.map((fault) => (
+        <span key={fault} class="fine measured" data-tone="warning">
+          {fault}
+        </span>
+      ))}
       {info.kind === 'cloud' && <Whole info={info} sensing={sensing} sample={sample} />}
     </>
   );
@@ -122,15 +128,14 @@ function Whole({ info, sensing, sample }: { info: SensorInfo; sensing: Sensing; 
 /** Why a sample is not in the scene; null: it is, or it need not be. */
 function homeless({ kind, robot }: SensorInfo, { head }: Sample, { layout }: State): string | null {
   const isPlaced = kind === 'map' || kind === 'path'; // before there is a map in TF, too
-  if (kind === 'picture' || isPlaced || head.type === 'unreadable' || head.origin.frame === 'world') {
+  const isAtHome = (frame: string): boolean => frame === 'world' || (head.type === 'marks' && isMap(frame));
+  if (kind === 'picture' || isPlaced || head.type === 'unreadable') {
     return null;
   }
-  const { frame } = head.origin;
-  const names = [frame, `${robot.slice(1)}/${frame}`];
-  const there = layout.frames.some(
-    ({ name, parent }) => names.includes(name) || names.includes(parent),
-  );
-  return there ? null : `its frame "${frame}" is not in TF, so that it has no place in the view`;
+  const frames = head.type === 'marks' ? [...head.batches, ...head.texts].map(({ frame }) => frame) : [head.origin.frame];
+  const known = new Set(layout.frames.flatMap(({ name, parent }) => [name, parent]));
+  const lost = frames.find((frame) => !known.has(frame) && !known.has(`${robot.slice(1)}/${frame}`) && !isAtHome(frame));
+  return lost === undefined ? null : `its frame "${lost}" is not in TF, so that it has no place in the view`;
 }
 
 function Camera({ info: { topic }, sensing, state, canvases }: SensorProps) {

@@ -13,6 +13,7 @@ import { linkFacts } from '../links';
 import { StateHistory } from './history';
 import type { Label } from './labels';
 import { LinkMarks } from './link_marks';
+import { MarkLayer } from './marks';
 import { NavigationLayer } from './navigation';
 import type { LocateFrame } from './grids';
 import { automaticFrame, isMap, namesOfFrames, Placement, WORLD, type Body } from './placement';
@@ -49,6 +50,7 @@ export class Picture {
   readonly surroundings: Surroundings;
   readonly sensors = new SensorLayer();
   readonly navigation: NavigationLayer;
+  readonly marks: MarkLayer;
   options: SceneOptions = {
     frames: true, frameNames: true, trails: true, contacts: true, collisions: false, grid: true,
     maps: true, paths: true,
@@ -66,7 +68,7 @@ export class Picture {
   private readonly axes = new Axes();
   private readonly contacts = new Contacts();
   private readonly links = new LinkMarks();
-  private readonly marks = new RobotMarks();
+  private readonly robotMarks = new RobotMarks();
   private palette = PALETTES.light;
   private readonly history = new StateHistory();
   private layout: Layout = EMPTY;
@@ -83,9 +85,10 @@ export class Picture {
     failed: (text: string) => void = () => {},
   ) {
     this.navigation = new NavigationLayer(changed, failed);
+    this.marks = new MarkLayer(changed, failed);
     this.world = new WorldView(!isSoftware);
     this.surroundings = new Surroundings(this.scene, isSoftware);
-    this.scene.add(this.world.object, this.sensors.points, this.navigation.object);
+    this.scene.add(this.world.object, this.sensors.points, this.navigation.object, this.marks.object);
     const { axes, contacts, sensors, links, navigation } = this;
     this.overlay.add(navigation.marks, axes.object, contacts.object, sensors.marks, links.object);
   }
@@ -105,12 +108,12 @@ export class Picture {
 
   /** Mark these robots, each by a colour of its own where there are several. */
   setRobots(robots: readonly SceneRobot[]): void {
-    this.marks.keep(robots);
+    this.robotMarks.keep(robots);
     this.mark();
   }
 
   private mark(): void {
-    this.marks.dress(this.robots, this.palette);
+    this.robotMarks.dress(this.robots, this.palette);
   }
 
   /** The names of robots where there are several, and of frames. */
@@ -118,7 +121,7 @@ export class Picture {
     const areShown = this.options.frames && this.options.frameNames;
     const named = this.placed.filter(({ name }) => areShown || name === this.selected);
     return [
-      ...this.marks.labels(this.robots, this.palette),
+      ...this.robotMarks.labels(this.robots, this.palette),
       ...labelsOf(named, this.selected ?? this.fixedFrame),
     ];
   }
@@ -190,7 +193,7 @@ export class Picture {
 
   /** Take over a sample. */
   setSample(info: SensorInfo, sample: Sample): void {
-    if (!this.navigation.take(info, sample)) {
+    if (!this.navigation.take(info, sample) && !this.marks.take(info, sample)) {
       this.sensors.take(info, sample);
     }
   }
@@ -256,6 +259,7 @@ export class Picture {
     this.fixedFrame = this.chosenFrame ?? (isBare ? WORLD : automaticFrame(this.tree, bodies));
     if (this.fixedFrame !== before) {
       this.sensors.unsettle();
+      this.marks.unsettle();
     }
     const entries = [...this.robots.values()];
     this.placement.update(this.tree, bodies, this.fixedFrame);
@@ -266,7 +270,9 @@ export class Picture {
     this.links.place();
     this.placeFrames();
     this.placeContacts();
-    this.sensors.place(this.locator());
+    const locate = this.locator();
+    this.sensors.place(locate);
+    this.marks.place(locate, this.locateFrame);
     this.navigation.place(this.locateFrame, this.believed());
   }
 

@@ -16,6 +16,7 @@ import type { State } from '../state';
 import { CameraRig } from './camera';
 import { Grip, type Grasp, type Hands } from './grip';
 import { Labels } from './labels';
+import type { MarkNumbers } from './marks';
 import type { FramedPlace, NavigationNumbers } from './navigation';
 import { Painter } from './painter';
 import { Picking, type Picked } from './picking';
@@ -130,12 +131,18 @@ export class Scene {
   retainSensors(topics: ReadonlySet<string>): void {
     this.picture.sensors.retain(topics);
     this.picture.navigation.retain(topics);
+    this.picture.marks.retain(topics);
     this.invalidate();
   }
 
   /** What is drawn of maps, paths and goals. */
   navigationNumbers(): NavigationNumbers {
     return this.picture.navigation.numbers();
+  }
+
+  /** What others draw. */
+  markNumbers(): Record<string, MarkNumbers> {
+    return this.picture.marks.numbers();
   }
 
   /** What is drawn of each sensor. */

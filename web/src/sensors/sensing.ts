@@ -9,10 +9,10 @@ import type { Store } from '../store';
 
 /**
  * Shown until the user says otherwise: a scan is small, and what a mobile robot is about; of maps and
- * paths those that it is driven by.
+ * paths those that it is driven by; what somebody draws is drawn to be seen.
  */
 function isShownAtFirst({ topic, kind }: SensorInfo): boolean {
-  return kind === 'scan' || (kind === 'map' && topic.endsWith('/map')) || (kind === 'path' && topic.endsWith('/plan'));
+  return kind === 'scan' || kind === 'markers' || kind === 'point' || (kind === 'map' && topic.endsWith('/map')) || (kind === 'path' && topic.endsWith('/plan'));
 }
 
 export class Sensing {

@@ -13,7 +13,7 @@ export function timing({ head }: Sample, now: number): string {
   const { rate, stamp } = head.origin;
   const often = rate === null ? UNKNOWN : `${fixed(rate, rate < 10 ? 1 : 0)} Hz`;
   const age = now - stamp;
-  const known = head.type !== 'unreadable' && Math.abs(age) < OLDEST;
+  const known = head.type !== 'unreadable' && stamp !== 0 && Math.abs(age) < OLDEST;
   return known ? `${often} · ${fixed(Math.max(0, age), 2)} s old` : often;
 }
 
@@ -35,6 +35,8 @@ export function measured(sample: Sample, now: number): string {
       return mapWords(head);
     case 'path':
       return head.count === 0 ? 'no path' : `${head.count} poses · ${fixed(head.length, 1)} m`;
+    case 'marks':
+      return `${shownOf(head.shown, head.count)} ${head.count === 1 ? 'mark' : 'marks'}`;
     case 'unreadable':
       return head.text;
     default:
