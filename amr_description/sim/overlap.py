@@ -44,6 +44,13 @@ class Overlap:
     lift: float | None = None
     """How much higher the robot is free, m; None: it is inside a robot, or there is none."""
 
+    def warning(self, robot: str) -> str:
+        """Return what is told of a robot of this name that was put here."""
+        return (
+            f"'{robot}' was put inside {self.other}: its link '{self.link}' is "
+            f'{self.depth:.3f} m deep in it, and will be thrown out'
+        )
+
     def error(self, robot: str) -> SpawnError:
         """Return the refusal to spawn a robot of this name."""
         remedy = 'spawn it elsewhere'
@@ -63,6 +70,11 @@ def find_overlap(engine: Engine, robot: str) -> Overlap | None:
     if found is None or found.is_robot:
         return found
     return replace(found, lift=probe.lift())
+
+
+def deepest_overlap(engine: Engine, robot: str) -> Overlap | None:
+    """Return what :func:`find_overlap` does, without the height at which the robot is free."""
+    return _OverlapProbe(engine, robot).deepest()
 
 
 def find_drop(engine: Engine, robot: str) -> float:

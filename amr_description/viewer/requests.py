@@ -224,7 +224,11 @@ class LoadWorld:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Put a robot elsewhere, upright and at rest."""
+    """
+    Put a robot elsewhere, upright and at rest.
+
+    The data of the reply are true where the simulator warns, as of one that is inside something.
+    """
 
     types: ClassVar[tuple[str, ...]] = ('place',)
     id: int

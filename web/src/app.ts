@@ -35,9 +35,10 @@ const WORTH_SAYING: ReadonlySet<Asked['type']> = new Set(['spawn', 'set_up', 'de
  * Returns whether it was done.
  */
 export async function ask(app: App, asked: Asked): Promise<boolean> {
-  const { ok, message, again } = await app.connection.request(asked);
-  if (!ok || WORTH_SAYING.has(asked.type)) {
-    app.store.note(ok ? 'info' : 'error', message, again as Asked | null);
+  const { ok, message, again, data } = await app.connection.request(asked);
+  const isWarned = asked.type === 'place' && data === true;
+  if (!ok || isWarned || WORTH_SAYING.has(asked.type)) {
+    app.store.note(!ok ? 'error' : isWarned ? 'warning' : 'info', message, again as Asked | null);
   }
   return ok;
 }

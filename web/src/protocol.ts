@@ -1106,7 +1106,11 @@ export interface LoadWorld {
   name: string;
 }
 
-/** Put a robot elsewhere, upright and at rest. */
+/**
+ * Put a robot elsewhere, upright and at rest.
+ *
+ * The data of the reply are true where the simulator warns, as of one that is inside something.
+ */
 export interface Place {
   type: 'place';
   id: number;

@@ -42,3 +42,14 @@ test('nothing moves where the node cannot tell what is grasped', async () => {
   }
   assert.deepEqual(app.sent, []);
 });
+
+test('a robot that was put into something is told as a warning', async () => {
+  const app = simulating(['/', 'amr']);
+  for (const [id, data, message] of [[1, false, 'it stands'], [2, true, "'amr' was put inside 'shelf'"]] as const) {
+    const placed = handsOf(app)!.place('/', NONE, 0);
+    app.say({ type: 'reply', id, ok: true, message, data, again: null });
+    await placed;
+  }
+  const notices = app.store.notices.map(({ level, text }) => [level, text]);
+  assert.deepEqual(notices, [['warning', "'amr' was put inside 'shelf'"]]);
+});

@@ -48,6 +48,7 @@ from amr_description.ros.messages import (
     vector_of,
 )
 from amr_description.sim.entity_state import BoundingBox, bounds_of, motion_of, pose_of, set_state
+from amr_description.sim.overlap import deepest_overlap, Overlap
 from amr_description.sim.ros.entities import Category, Entity, EntityRecord
 from amr_description.sim.ros.service_replies import create_services
 from amr_description.sim.ros.simulation import Simulation
@@ -162,7 +163,11 @@ class EntityServices:
     async def _set_entity_state(
         self, request: SetEntityState.Request, response: SetEntityState.Response
     ) -> None:
-        """Set pose and twist at once; stamp and acceleration are ignored."""
+        """
+        Set pose and twist at once; stamp and acceleration are ignored.
+
+        A robot may be put inside something, as in Gazebo: then the message of the result says so.
+        """
         name, state = self._entities.find(request.entity).name, request.state
         frame = state.header.frame_id
         if frame not in ('', WORLD_FRAME):
@@ -183,11 +188,14 @@ class EntityServices:
             )
         world = self._world
 
-        def put() -> None:
+        def put() -> Overlap | None:
             world.faults.release(name)
             set_state(world.engine, world.robot(name), pose, linear, angular)
+            return deepest_overlap(world.engine, name)
 
-        await self._loop_thread.submit(put)
+        overlap = await self._loop_thread.submit(put)
+        if overlap is not None:
+            response.result.error_message = overlap.warning(name)
 
     async def _get_entity_info(
         self, request: GetEntityInfo.Request, response: GetEntityInfo.Response

@@ -30,7 +30,7 @@ from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError, PartlyDoneError, ViewerError
 from amr_description.model.fixing import fixed_to_world
 from amr_description.model.frames import Vector
-from amr_description.viewer.backend import Handlers, Hold, Watched
+from amr_description.viewer.backend import Answer, Handlers, Hold, Watched
 from amr_description.viewer.bags import StartRecording, StopRecording
 from amr_description.viewer.entities import entity_among
 from amr_description.viewer.joint_groups import joint_groups, with_moves
@@ -315,7 +315,7 @@ class GraphBackend:
         finally:
             self._start(self._refresh(simulator))
 
-    async def _simulate(self, request: SimulatorRequest, _: str) -> str:
+    async def _simulate(self, request: SimulatorRequest, _: str) -> Answer | str:
         async with self._simulator(request.simulator) as simulator:
             return await SIMULATOR_REQUESTS[type(request)](simulator, request)
 

@@ -47,6 +47,7 @@ from amr_description.ros.messages import fill_pose, transform_of
 from amr_description.ros.qos import SERVICE_CLIENT
 from amr_description.ros.service_calls import ServiceReadiness
 from amr_description.text import unwrap
+from amr_description.viewer.backend import Answer
 from amr_description.viewer.protocol import (
     ControllerInfo,
     Controllers,
@@ -325,11 +326,12 @@ class SimulatorClient:
         response = await self._do('spawn_entity', call)
         return f"'{response.entity_name}' is in the world"
 
-    async def place(self, request: Place) -> str:
+    async def place(self, request: Place) -> Answer:
         """Put an entity elsewhere; return one line about it. Raises ViewerError."""
         turned = (0.0, 0.0, request.yaw)
-        await self._place(request.name, Transform.from_xyz_rpy(request.position, turned))
-        return f"'{request.name}' stands where it was put"
+        pose = Transform.from_xyz_rpy(request.position, turned)
+        warning = await self._place(request.name, pose)
+        return Answer(warning or f"'{request.name}' stands where it was put", bool(warning))
 
     async def reset_entity(self, request: ResetEntity) -> str:
         """Put an entity where it was spawned; return one line about it. Raises ViewerError."""
@@ -351,11 +353,13 @@ class SimulatorClient:
         self.world = response.world.name
         return f"the world is '{self.world}'"
 
-    async def _place(self, name: str, pose: Transform) -> None:
+    async def _place(self, name: str, pose: Transform) -> str:
+        """Return what the simulator says about it, though it is done; mostly nothing."""
         call = SetEntityState.Request(entity=name, state=EntityState())
         call.state.header.frame_id = _WORLD_FRAME
         fill_pose(pose, call.state.pose)
-        await self._do('set_entity_state', call)
+        result: Result = (await self._do('set_entity_state', call)).result
+        return result.error_message
 
     async def spawn_poses(self) -> dict[str, Transform]:
         """Return where the entities were spawned, by their names. Raises ViewerError."""
@@ -382,7 +386,7 @@ class SimulatorClient:
 
 
 SIMULATOR_REQUESTS: Mapping[
-    type[SimulatorRequest], Callable[[SimulatorClient, Any], Awaitable[str]]
+    type[SimulatorRequest], Callable[[SimulatorClient, Any], Awaitable[Answer | str]]
 ] = {
     Play: SimulatorClient.play,
     Step: SimulatorClient.step,

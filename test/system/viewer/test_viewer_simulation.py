@@ -338,6 +338,8 @@ def test_a_page_puts_a_robot_elsewhere_and_back(page, ask, driven):
     ok, message = ask.simulator('place', name='amr', position=[2.0, -1.0, 0.1], yaw=1.0)
     assert (ok, message) == (True, "'amr' stands where it was put")
     page.wait(lambda: distance(page, '/', (2.0, -1.0)) < 0.02)
+    ok, message = ask.simulator('place', name='amr', position=[2.0, -1.0, -0.05], yaw=1.0)
+    assert (ok, "'amr' was put inside 'ground' of the world" in message) == (True, True)
     ok, message = ask.simulator('reset_entity', name='amr')
     assert (ok, message) == (True, "'amr' stands where it was spawned")
     page.wait(lambda: distance(page, '/', (0.0, 0.5)) < 0.02)

@@ -10,7 +10,8 @@ import pytest
 
 from amr_description.errors import SpawnError
 from amr_description.model.frames import Transform
-from amr_description.sim.overlap import TOLERANCE
+from amr_description.sim.entity_state import set_state
+from amr_description.sim.overlap import deepest_overlap, TOLERANCE
 from amr_description.sim.spawning import SpawnCode
 from amr_description.sim.world import MujocoWorld
 
@@ -135,6 +136,18 @@ def test_a_robot_that_may_be_lifted_stands_on_what_it_was_in(things, place, heig
     world.step(5)
     world.reset()
     assert robot.pose('base_footprint').translation[2] == pytest.approx(height, abs=TOLERANCE)
+
+
+def test_a_robot_that_is_put_inside_something_is_told_so(world):
+    robot = world.spawn('amr', AMR)
+    set_state(world.engine, robot, at(5, 0, 0.15), (0, 0, 0), (0, 0, 0))
+    found = deepest_overlap(world.engine, 'amr')
+    assert found.warning('amr') == (
+        f"'amr' was put inside 'table' of the world: its link '{found.link}' is 0.050 m deep in "
+        'it, and will be thrown out'
+    )
+    set_state(world.engine, robot, at(2, 0, 0), (0, 0, 0), (0, 0, 0))
+    assert deepest_overlap(world.engine, 'amr') is None
 
 
 def test_no_robot_is_lifted_out_of_another(world):
