@@ -82,6 +82,9 @@ def _read_head(xml: etree._Element, reader: ElementReader) -> str:
             'this is no URDF',
             found=f'the root element <{xml.tag}>',
             expected='<robot>',
+            fix='give the URDF of the robot, with the plugins and sensors in <gazebo> tags'
+            if xml.tag == 'sdf'
+            else '',
             urdfdom="Could not find the 'robot' element in the xml file",
         )
     name = xml.get('name', '')

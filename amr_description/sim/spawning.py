@@ -145,7 +145,9 @@ def read_description(
         head, found, _ = text.partition(tag)
         if found and '<robot' not in head:
             raise SpawnError(
-                f'{source}: the description is {language}; this simulator spawns URDF',
+                f'{source}: the description is {language}; this simulator spawns URDF: give it '
+                'that of the robot, as by -topic robot_description; its <gazebo> tags hold the '
+                'plugins and sensors (docs/from_gazebo.md)',
                 SpawnCode.UNSUPPORTED_FORMAT,
             )
     try:
