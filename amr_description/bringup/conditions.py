@@ -47,6 +47,8 @@ class NodeState:
     """Respawns in a row."""
     restart_at: float | None = None
     """Time of the next respawn, s; None: none is planned."""
+    absent: bool = False
+    """Whether it was to be started, and no process could be made of it so far."""
 
     @property
     def running(self) -> bool:
@@ -317,9 +319,10 @@ class _Failed(_OfNode):
 class _Started(_OfNode):
     def evaluate(self, state: StackState) -> Verdict:
         node = state.nodes[self.node]
-        if node.started:
+        if node.started and not node.absent:
             return Verdict.HOLDS
-        return Verdict.NEVER if node.unreachable else Verdict.NOT_YET
+        is_over = node.unreachable or node.returncode is not None
+        return Verdict.NEVER if is_over else Verdict.NOT_YET
 
     def describe(self, name_of: NameOf) -> str:
         return f'{name_of(self.node)} was started'
@@ -328,8 +331,9 @@ class _Started(_OfNode):
 @dataclass(frozen=True)
 class _Settled(_Started):
     def evaluate(self, state: StackState) -> Verdict:
-        given_up = state.nodes[self.node].unreachable and not self.node.required
-        return Verdict.HOLDS if given_up else super().evaluate(state)
+        verdict = super().evaluate(state)
+        given_up = verdict is Verdict.NEVER and not self.node.required
+        return Verdict.HOLDS if given_up else verdict
 
 
 @dataclass(frozen=True)

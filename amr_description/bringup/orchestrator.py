@@ -259,7 +259,6 @@ class Orchestrator:
 
     def _start(self, node: Node) -> None:
         spec = self._specs[node]
-        self._scheduler.on_start(node)
         try:
             environment = child_environment(spec.executable, spec.variables(self._environment))
             spec.write_parameter_files()
@@ -269,7 +268,7 @@ class Orchestrator:
             reason = f'could not be started: {why}'
             self._reporter.not_started(node, reason)
             self._last_lines[node] = [reason]
-            self._scheduler.on_exit(node, CANNOT_START, [reason])
+            self._scheduler.on_no_start(node, CANNOT_START, [reason])
             if self._observer is not None:
                 self._observer.ended(node, CANNOT_START)
             self._reporter.respawn(node, self._scheduler.state, [reason])
@@ -279,6 +278,7 @@ class Orchestrator:
             self._children.pop(node).close()
         self._children[node] = child
         self._last_lines[node] = child.last_lines
+        self._scheduler.on_start(node)
         self._reporter.started(node, child.pid)
         self._wake_at_end(child.pid)
         if self._observer is not None:

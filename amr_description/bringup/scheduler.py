@@ -188,6 +188,13 @@ class Scheduler:
         self._update()
         self._call_handlers()
 
+    def on_no_start(self, node: Node, returncode: int, last_lines: Sequence[str]) -> None:
+        """Note that no process could be made of a node: as :meth:`on_exit`, but it never ran."""
+        self._last_start[node] = self._state.time
+        before = self._nodes[node]
+        self._nodes[node] = replace(before, absent=before.absent or not before.started)
+        self.on_exit(node, returncode, last_lines)
+
     def on_exit(self, node: Node, returncode: int, last_lines: Sequence[str] = ()) -> None:
         """
         Note that the process of a node has ended, and call its handler.
@@ -202,8 +209,8 @@ class Scheduler:
         is_start = returncode != 0 and self._is_start(node)
         if not self.over and not is_start and self._plan_respawn(node):
             return
-        restarts = self._nodes[node].restarts
-        self._nodes[node] = NodeState(started=True, returncode=returncode, restarts=restarts)
+        before = self._nodes[node]
+        self._nodes[node] = replace(before, started=True, returncode=returncode, restart_at=None)
         self._update()
         if self.over:
             return
@@ -213,7 +220,7 @@ class Scheduler:
         failed = returncode != 0 or node.respawn is not None
         blocks_a_required_node = any(waiting.required for waiting in self.unreachable())
         if failed and (node.required is True or is_start or blocks_a_required_node):
-            self.failure = Failure(node, returncode, restarts)
+            self.failure = Failure(node, returncode, before.restarts)
         ends_the_stack = returncode == 0 and node.on_exit == 'shutdown'
         stopped_by_handler = self.shutdown is not None
         self.over = bool(self.failure) or stopped_by_handler or ends_the_stack or self._is_idle()
@@ -385,7 +392,9 @@ class Scheduler:
         if rule.limit is not None and restarts >= rule.limit:
             return False
         restart_at = now + rule.delay * rule.backoff**restarts
-        self._nodes[node] = NodeState(started=True, restarts=restarts + 1, restart_at=restart_at)
+        self._nodes[node] = replace(
+            self._nodes[node], started=True, restarts=restarts + 1, restart_at=restart_at
+        )
         self._update()
         return True
 

@@ -14,6 +14,7 @@ from amr_description.bringup import (
     exited_cleanly,
     Log,
     Node,
+    Respawn,
     Shutdown,
     Stack,
     started,
@@ -44,6 +45,20 @@ def test_the_order_of_the_list_does_not_matter(order):
     assert scheduler.over
     assert scheduler.failure is None
     assert scheduler.ready
+
+
+@pytest.mark.parametrize('respawn', [None, Respawn(limit=1)])
+def test_nothing_follows_the_start_of_a_process_that_cannot_be_made(respawn):
+    absent = Node('absent', required=False, respawn=respawn)
+    follower = Node('follower', start_when=started(absent), required=False)
+    scheduler = Scheduler(Stack([absent, Node('other'), follower]))
+    scheduler.on_no_start(absent, 126, ['could not be started'])
+    assert follower not in scheduler.startable()
+    assert scheduler.unreachable() == ([] if respawn else [follower])
+    if respawn:
+        scheduler.advance_to(respawn.delay)
+        scheduler.on_start(absent)
+        assert follower in scheduler.startable()
 
 
 @pytest.mark.parametrize(('returncode', 'exit_code'), [(1, 1), (255, 255), (-9, 137), (-2, 130)])
