@@ -12,6 +12,7 @@ from importlib.util import find_spec
 import os
 from pathlib import Path
 import sys
+from types import ModuleType
 from typing import Any
 
 from amr_description.errors import AmrError
@@ -177,9 +178,19 @@ class Registry:
             place = place_of(cause)
             if Path(__file__).name in place:  # it is not there at all
                 place = ''
-            reason = f' ({type(cause).__name__}: {cause}{place})'
+            reason = f' ({type(cause).__name__}: {cause}{_instead_of(cause)}{place})'
         known = f'. Known: {", ".join(self.names)}' if len(self.names) <= _MOST_NAMES else ''
         return (
             f"{self._kind} '{name}' is not known, and cannot be imported as "
             f'package.module/Class{reason}{did_you_mean(name, self.names)}{known}'
         )
+
+
+def _instead_of(cause: BaseException) -> str:
+    """Return which classes a module has in place of one that it has not; '': it is not so."""
+    module = getattr(cause, 'obj', None)
+    if not isinstance(module, ModuleType):
+        return ''
+    own = (each for each in vars(module).values() if isinstance(each, type))
+    names = [each.__name__ for each in own if each.__module__ == module.__name__]
+    return f'; there are {", ".join(names)}' if names else ''

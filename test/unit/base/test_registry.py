@@ -73,6 +73,13 @@ def test_a_class_of_another_kind_is_refused(name, said, tmp_path, monkeypatch):
     assert registry.find('a/Path').__name__ == 'Path', 'those of the table are not asked'
 
 
+def test_of_a_module_without_that_class_the_classes_are_told(tmp_path, monkeypatch):
+    (tmp_path / 'of_hers.py').write_text('from pathlib import Path\nclass Good: ...\n')
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(ControllerError, match=r"no attribute 'Goof'; there are Good\)"):
+        Registry('thing', TABLE, ControllerError).find('of_hers/Goof')
+
+
 def test_a_fault_of_the_table_itself_is_not_the_users():
     with pytest.raises(AttributeError, match='Gone'):
         Registry('thing', TABLE, ControllerError).find('a/Gone')

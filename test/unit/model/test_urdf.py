@@ -274,7 +274,7 @@ NOT_TREES = {
     'mismatch': ('<robot name="r">\n<link name="a">\n</robot>', r'^f:3: not .*mismatch: link'),
     'empty': ('', r'^f:1: the description is empty: expected a URDF'),
     'blank': (' \n', r'^f:1: the description is empty'),
-    'not a robot': ('\n<sdf/>', r'^f:2: this is no URDF: found the root element <sdf>.*; give the URDF of the robot, with'),
+    'not a robot': ('\n<sdf/>', r'^f:2: this is no URDF: .* <sdf>.*; give the URDF of the robot'),
     'no name': ('<robot><link name="a"/></robot>', r'^f:1: <robot> has no attribute "name"'),
     'version': (
         '<robot name="r" version="2.0"><link name="a"/></robot>',
