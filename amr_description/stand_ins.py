@@ -64,6 +64,12 @@ _SENSOR = (
     'description, and publishes that (docs/sensors.md)'
 )
 
+_ELSEWHERE = (
+    'it is C++, or made by C++, and not here: it runs on a machine with ROS 2 Jazzy beside this '
+    'one (docs/two_machines.md)'
+)
+_FROM_SOURCE = 'its sources can be cloned into a workspace and built there with colcon'
+
 _DRIVERS = (
     'camera_ros',
     'coin_d4_driver',
@@ -75,6 +81,7 @@ _DRIVERS = (
     'ldlidar_stl_ros2',
     'livox_ros_driver2',
     'lslidar_driver',
+    'micro_ros_agent',
     'orbbec_camera',
     'ouster_ros',
     'realsense2_camera',
@@ -92,8 +99,29 @@ _DRIVERS = (
     'zed_wrapper',
 )
 
+_OF_CPP = (
+    'apriltag_ros',
+    'depth_image_proc',
+    'depthimage_to_laserscan',
+    'image_proc',
+    'image_transport',
+    'image_view',
+    'imu_complementary_filter',
+    'imu_filter_madgwick',
+    'laser_filters',
+    'octomap_server',
+    'pointcloud_to_laserscan',
+    'rf2o_laser_odometry',
+    'rtabmap_odom',
+    'rtabmap_slam',
+    'stereo_image_proc',
+    'topic_tools',
+)
+
 INSTEAD_OF_PACKAGES = {
     **dict.fromkeys(_DRIVERS, _SENSOR),
+    **dict.fromkeys(_OF_CPP, _ELSEWHERE),
+    'foxglove_bridge': _PAGE,
     'gazebo_ros': _SIMULATOR,
     'joint_state_publisher_gui': (
         "its sliders are on the page of 'ros2 launch amr_description display'"
@@ -126,6 +154,8 @@ INSTEAD_OF_PACKAGES = {
     'ros_gz_bridge': _NO_BRIDGE,
     'ros_gz_image': _NO_BRIDGE,
     'ros_gz_sim': _SIMULATOR,
+    'rosapi': _FROM_SOURCE,
+    'rosbridge_server': _FROM_SOURCE,
     'rqt': _GRAPH,
     'rqt_console': "'ros2 topic echo /rosout' prints the log of all nodes",
     'rqt_graph': _GRAPH,
@@ -142,17 +172,12 @@ INSTEAD_OF_PACKAGES = {
 }
 """By package: what to do where it is not installed."""
 
-_FROM_SOURCE = 'its sources can be cloned into a workspace and built there with colcon'
 _PIP = 'pip install {}'
 _NO_LINTER = (
     'this linter is not here: leave its test out, as by "colcon test --pytest-args -k \'not '
     'linter\'", or run it on a machine with ROS 2 Jazzy'
 )
 _ROS_1 = 'it is of ROS 1; in ROS 2 it is {}'
-_ELSEWHERE = (
-    'it is C++, or made by C++, and not here: it runs on a machine with ROS 2 Jazzy beside this '
-    'one (docs/two_machines.md)'
-)
 INSTEAD_OF_MODULES = {
     'PIL': _PIP.format('Pillow'),
     'PyKDL': _ELSEWHERE,
@@ -188,7 +213,6 @@ INSTEAD_OF_MODULES = {
     'ros2_numpy': _FROM_SOURCE,
     'rosbag': _ROS_1.format('rosbag2_py'),
     'rosbridge_library': _FROM_SOURCE,
-    'rosbridge_server': _FROM_SOURCE,
     'roslaunch': _ROS_1.format('launch, and ros2 launch'),
     'roslib': _ROS_1.format('ament_index_python'),
     'rospkg': _ROS_1.format('ament_index_python'),

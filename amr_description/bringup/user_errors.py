@@ -7,6 +7,7 @@ import sysconfig
 import traceback
 
 from amr_description.errors import AmrError
+from amr_description.stand_ins import hint_of_module
 from amr_description.text import unwrap
 
 _NOT_OF_USERS = (
@@ -17,8 +18,14 @@ _NOT_OF_USERS = (
 
 
 def describe(error: BaseException) -> str:
-    """Return ``ValueError: no such arm (my_arm.py, line 7)``; without the type for an AmrError."""
+    """
+    Return ``ValueError: no such arm (my_arm.py, line 7)``; without the type for an AmrError.
+
+    Of a module of ROS that is not here, what would do is said, too.
+    """
     text = unwrap(str(error))
+    if isinstance(error, ModuleNotFoundError) and (hint := hint_of_module(error.name or '')):
+        text = f'{text}; {hint}'
     if isinstance(error, AmrError):
         return f'{text}{location(error)}'
     name = type(error).__name__
