@@ -12,6 +12,7 @@ from fixtures.launch_files.packages import (
     commands,
     first_in_the_index,
     install_package,
+    outline,
     parameters,
     PUBLIC,
     stack_of,
@@ -24,13 +25,14 @@ from support.paths import ROOT
 from amr_description.errors import BringupError
 
 TUTORIAL = ROOT / 'test/fixtures/tutorial'
+LOOKED_AT = (PUBLIC.parent / 'public.txt').read_text().split('\n== ')[1:]
 
 
 @pytest.fixture(scope='module')
 def share(tmp_path_factory):
     """The share folder of the package ``demos``, in which all of them lie."""
     prefix = tmp_path_factory.mktemp('prefix')
-    files = {f'launch/{path.name}': path.read_text() for path in PUBLIC.glob('*.py')}
+    files = {f'launch/{path.name}': path.read_text() for path in PUBLIC.iterdir()}
     files |= {
         'config/my_controllers.yaml': '{}\n',
         'config/ekf.yaml': '{}\n',
@@ -48,6 +50,19 @@ def launched(share, name, **arguments):
 
 def said(stack):
     return '\n'.join(f'{level} {text}' for level, text in stack.notes)
+
+
+@pytest.mark.parametrize('expected', LOOKED_AT, ids=lambda text: text.partition('.')[0])
+def test_each_starts_what_was_looked_at(share, expected, monkeypatch):
+    """All of what it starts, and of what it is left out; the others look at arguments, too."""
+    monkeypatch.setattr(os, 'environ', os.environ.copy())
+    name, *lines = expected.strip().splitlines()
+    assert outline(share / 'launch' / name) == '\n'.join(lines).format(share=share)
+
+
+def test_each_file_was_looked_at():
+    names = [text.partition('\n')[0] for text in LOOKED_AT]
+    assert names == sorted(path.name for path in PUBLIC.iterdir())
 
 
 def test_gz_ros2_control_demos(share):
