@@ -3,7 +3,7 @@
 """
 Measure the stack, part by part, and compare the figures with their goals.
 
-See docs/benchmarks.md for what each row means.
+See benchmarks/README.md for what each row means.
 """
 
 import argparse

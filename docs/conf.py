@@ -27,7 +27,7 @@ project = 'amr_description'
 author = 'The amr_description authors'
 project_copyright = f'2026 {author}'
 root_doc = FRONT
-include_patterns = ['*.md', 'docs/*.md', 'docs/api/*.rst']
+include_patterns = ['*.md', 'benchmarks/*.md', 'docs/*.md', 'docs/api/*.md', 'docs/api/*.rst']
 exclude_patterns = ['.*', 'amr_description', 'build', 'install', 'log', 'test', 'web']
 
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon']

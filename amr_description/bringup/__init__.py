@@ -14,7 +14,7 @@ types as ``name:=value``. A whole file, started by ``bringup my_stack.py times:=
         talk = Node('talker', start_when=exited_cleanly(look))
         return Stack([look, talk])
 
-All of it by example: docs/write_your_own_stack.md. Modules marked "pure" start no process and read
+All of it by example: docs/stacks.md. Modules marked "pure" start no process and read
 no clock:
 
 ======================== =========================================================================

@@ -25,7 +25,7 @@ class Finding:
 
     severity: Severity
     rule: str
-    """The name of the function that found it, and of its section in docs/doctor.md."""
+    """The name of the function that found it, and of its section in docs/api/doctor.md."""
     what: str
     """What was seen, with names and figures; one line."""
     why: str

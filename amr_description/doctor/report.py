@@ -11,7 +11,7 @@ from amr_description.doctor.findings import Finding, Severity
 from amr_description.doctor.observations import Observations
 from amr_description.text import one_line
 
-PAGE = 'docs/doctor.md'
+PAGE = 'docs/api/doctor.md'
 
 
 def link(finding: Finding) -> str:

@@ -66,7 +66,7 @@ class FindingInfo:
     """What ``ros2 doctor`` finds wrong in the graph."""
 
     severity: Literal['error', 'warning']
-    rule: str  #: its section in docs/doctor.md
+    rule: str  #: its section in docs/api/doctor.md
     what: str  #: what was seen
     why: str  #: why it matters
     fix: str  #: what mends it; commands are between back-quotes

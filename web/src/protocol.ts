@@ -630,7 +630,7 @@ export interface Transforms {
 /** What `ros2 doctor` finds wrong in the graph. */
 export interface FindingInfo {
   severity: 'error' | 'warning';
-  /** its section in docs/doctor.md */
+  /** its section in docs/api/doctor.md */
   rule: string;
   /** what was seen */
   what: string;

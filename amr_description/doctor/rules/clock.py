@@ -41,7 +41,12 @@ compares the stamps with it."""
 
 
 def two_clocks(seen: Observations) -> Iterator[Finding]:
-    """Two nodes publish ``/clock``: the time of all others jumps between them."""
+    """
+    Two nodes publish ``/clock``: the time of all others jumps between them.
+
+    Simulators, bridges of Gazebo and ``ros2 bag play --clock`` publish it. End all but one, or use
+    another ``ROS_DOMAIN_ID``.
+    """
     clock = seen.clock
     if clock is None or len(clock.publishers) < 2:
         return
@@ -61,7 +66,12 @@ def two_clocks(seen: Observations) -> Iterator[Finding]:
 
 
 def no_clock(seen: Observations) -> Iterator[Finding]:
-    """Nodes wait for a simulated time that nobody publishes."""
+    """
+    Nodes wait for a simulated time that nobody publishes.
+
+    Until ``/clock`` comes, their time is 0 and their timers stand. Start what publishes it, or set
+    ``use_sim_time`` to false for a real robot.
+    """
     if seen.clock is None or seen.clock.publishers or seen.graph is None:
         return
     waiting = [each.name for each in seen.graph.nodes if each.use_sim_time]
@@ -81,7 +91,11 @@ def no_clock(seen: Observations) -> Iterator[Finding]:
 
 
 def standing_clock(seen: Observations) -> Iterator[Finding]:
-    """Simulated time stands still: the simulation is paused."""
+    """
+    Simulated time stands still: the simulation is paused.
+
+    Controllers stand with it. The fix is the command that lets time go on.
+    """
     clock = seen.clock
     if clock is None or len(clock.publishers) != 1:
         return
@@ -102,7 +116,12 @@ def standing_clock(seen: Observations) -> Iterator[Finding]:
 
 
 def clock_goes_back(seen: Observations) -> Iterator[Finding]:
-    """Simulated time goes back, though one node alone publishes it."""
+    """
+    Simulated time goes back, though one node alone publishes it.
+
+    tf2 clears its buffer ("Detected jump back in time"), and filters begin anew. A bag with
+    ``--loop`` does so. One reset of a simulation is no finding.
+    """
     clock = seen.clock
     if clock is None or len(clock.publishers) != 1:
         return
@@ -123,7 +142,12 @@ def clock_goes_back(seen: Observations) -> Iterator[Finding]:
 
 
 def mixed_use_sim_time(seen: Observations) -> Iterator[Finding]:
-    """Nodes on the system clock among others on simulated time, or the other way round."""
+    """
+    Nodes on the system clock among others on simulated time, or the other way round.
+
+    It takes all their stamps for decades old. The parameter can be set while the node runs. Not
+    named are nodes that handle no stamps, and those that subscribe to ``/clock`` themselves.
+    """
     graph, clock = seen.graph, seen.clock
     if graph is None or clock is None or not clock.publishers:
         return
@@ -156,7 +180,12 @@ def mixed_use_sim_time(seen: Observations) -> Iterator[Finding]:
 
 
 def stamps_of_another_clock(seen: Observations) -> Iterator[Finding]:
-    """Messages whose stamp is of another clock than the present."""
+    """
+    Messages whose stamp is of another clock than the present.
+
+    ``header.stamp`` is more than a minute off: by ``time.time()`` in a simulation, or by machines
+    whose clocks differ. Stamp by ``self.get_clock().now()``.
+    """
     if seen.clock is None or len(seen.clock.publishers) > 1:
         return
     found: dict[tuple[tuple[str, ...], str, str], list[str]] = {}
@@ -174,7 +203,12 @@ def stamps_of_another_clock(seen: Observations) -> Iterator[Finding]:
 
 
 def slow_simulation(seen: Observations) -> Iterator[Finding]:
-    """The simulation is slower than it was asked to be."""
+    """
+    The simulation is slower than it was asked to be.
+
+    It misses its ``real_time_factor`` by more than a tenth. Results are right all the same. The
+    finding names the stage that takes the time.
+    """
     clock = seen.clock
     if clock is None or len(clock.publishers) != 1 or clock.is_standing:
         return

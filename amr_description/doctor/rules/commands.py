@@ -25,7 +25,12 @@ _ABOVE = 1.001
 
 
 def engaged_stop(seen: Observations) -> Iterator[Finding]:
-    """A lock holds the robot at rest, whoever commands it."""
+    """
+    A lock holds the robot at rest, whoever commands it.
+
+    ``emergency_stop`` is true: STOP was pressed on a page, or by another program. It outlives the
+    page.
+    """
     for lock in seen.commands.locks if seen.commands else ():
         if not lock.is_locked:
             continue
@@ -41,7 +46,12 @@ def engaged_stop(seen: Observations) -> Iterator[Finding]:
 
 
 def unstamped_commands(seen: Observations) -> Iterator[Finding]:
-    """Twist for ``~/cmd_vel_unstamped``, the name of Humble, which Jazzy has no more."""
+    """
+    Twist for ``~/cmd_vel_unstamped``, the name of Humble, which Jazzy has no more.
+
+    Controllers of Jazzy take ``TwistStamped`` on ``~/cmd_vel``. Ours take ``Twist`` too, with
+    ``enable_cmd_vel_unstamped: true``.
+    """
     for topic in seen.graph.topics if seen.graph else ():
         controller = topic.name.removesuffix(_UNSTAMPED)
         if controller == topic.name or topic.subscriptions or not topic.publishers:
@@ -78,7 +88,11 @@ def commands_not_finite(seen: Observations) -> Iterator[Finding]:
 
 
 def commands_of_another_clock(seen: Observations) -> Iterator[Finding]:
-    """Stamps of commands by the system clock for a simulated robot, or the other way round."""
+    """
+    Stamps of commands by the system clock for a simulated robot, or the other way round.
+
+    A stamp of 0, as of ``ros2 topic pub``, counts as the time of arrival.
+    """
     for topic in _driven(seen):
         wrong = [e for e in topic.seen if e.age is not None and abs(e.age) > OTHER_CLOCK]
         if not wrong:
@@ -99,7 +113,12 @@ def commands_of_another_clock(seen: Observations) -> Iterator[Finding]:
 
 
 def commands_too_old(seen: Observations) -> Iterator[Finding]:
-    """Commands whose stamps are older than the drive's time-out: it refuses them."""
+    """
+    Commands whose stamps are older than the drive's time-out: it refuses them.
+
+    Each is older than ``cmd_vel_timeout`` when it arrives. Its stamp is taken too early, or never
+    renewed.
+    """
     for topic in _driven(seen):
         aged = [e for e in topic.seen if e.age is not None and abs(e.age) <= OTHER_CLOCK]
         for drive in _drives(seen, topic):
@@ -123,7 +142,12 @@ def commands_too_old(seen: Observations) -> Iterator[Finding]:
 
 
 def contending_commands(seen: Observations) -> Iterator[Finding]:
-    """Two publishers command one drive at once."""
+    """
+    Two publishers command one drive at once.
+
+    Teleop and a navigator, or two pages. Let twist_mux decide
+    (docs/localisation.md#between-planner-and-wheels).
+    """
     for topic in _driven(seen):
         active = [each for each in series_of(topic.seen) if len(each) > 1]
         if not any(
@@ -147,7 +171,12 @@ def contending_commands(seen: Observations) -> Iterator[Finding]:
 
 
 def commands_too_seldom(seen: Observations) -> Iterator[Finding]:
-    """Commands that come more seldom than the drive's time-out: it brakes between them."""
+    """
+    Commands that come more seldom than the drive's time-out: it brakes between them.
+
+    The time-out is ``cmd_vel_timeout``. ``ros2 topic pub`` sends once a second without ``--rate
+    10``.
+    """
     factor = (seen.clock.factor if seen.clock else None) or 1.0
     for topic in _driven(seen):
         series = [each for each in series_of(topic.seen) if len(each) > 1]
@@ -171,7 +200,12 @@ def commands_too_seldom(seen: Observations) -> Iterator[Finding]:
 
 
 def commands_beyond_limits(seen: Observations) -> Iterator[Finding]:
-    """All commands are beyond what the drive is limited to."""
+    """
+    All commands are beyond what the drive is limited to.
+
+    The controller cuts them. If it cuts one of two velocities, the robot drives another arc:
+    ``preserve_curvature: true`` keeps it.
+    """
     for topic in _driven(seen):
         for drive in _drives(seen, topic):
             for name, least, most in drive.limits:

@@ -25,7 +25,12 @@ _SHOWN = 3
 
 
 def controller_manager_missing(seen: Observations) -> Iterator[Finding]:
-    """Who waits for a controller manager finds one."""
+    """
+    Who waits for a controller manager finds one.
+
+    A spawner waits, and no node offers ``list_controllers``. A simulator has a manager once a
+    robot with ``<ros2_control>`` is spawned. On a real robot it is ``ros2_control_node``.
+    """
     found = seen.controllers
     if found is None or found.managers or not found.spawners:
         return
@@ -40,7 +45,11 @@ def controller_manager_missing(seen: Observations) -> Iterator[Finding]:
 
 
 def controller_manager_silent(seen: Observations) -> Iterator[Finding]:
-    """The services of a controller manager answer; where the machine has the time for it."""
+    """
+    The services of a controller manager answer; where the machine has the time for it.
+
+    It waits for its description or hardware, or hangs in a driver. Its log says which.
+    """
     if any(overloaded(seen)):
         return
     for each in _managers(seen):
@@ -55,7 +64,12 @@ def controller_manager_silent(seen: Observations) -> Iterator[Finding]:
 
 
 def hardware_inactive(seen: Observations) -> Iterator[Finding]:
-    """Hardware components are active."""
+    """
+    Hardware components are active.
+
+    Only then are their command interfaces available. ``set_hardware_component_state`` activates
+    one, unless it is finalized.
+    """
     for manager in _managers(seen):
         for each in manager.components:
             if each.state == 'active':
@@ -74,7 +88,11 @@ def hardware_inactive(seen: Observations) -> Iterator[Finding]:
 
 
 def controller_type_unknown(seen: Observations) -> Iterator[Finding]:
-    """The manager knows the types of the controllers that its parameters name."""
+    """
+    The manager knows the types of the controllers that its parameters name.
+
+    ``NAME.type`` is misspelt, or its package is not sourced.
+    """
     for manager in _managers(seen):
         loaded = {each.name for each in manager.controllers}
         for name, kind in manager.wanted.items():
@@ -91,7 +109,11 @@ def controller_type_unknown(seen: Observations) -> Iterator[Finding]:
 
 
 def controller_unconfigured(seen: Observations) -> Iterator[Finding]:
-    """Loaded controllers are configured."""
+    """
+    Loaded controllers are configured.
+
+    Parameters were refused, or nobody has configured it. The finding has its log.
+    """
     for manager in _managers(seen):
         for each in manager.controllers:
             if each.state not in ('unconfigured', 'finalized'):
@@ -106,7 +128,11 @@ def controller_unconfigured(seen: Observations) -> Iterator[Finding]:
 
 
 def interfaces_claimed(seen: Observations) -> Iterator[Finding]:
-    """No controller has been refused because of another one's interfaces."""
+    """
+    No controller has been refused because of another one's interfaces.
+
+    ``switch_controllers`` deactivates the one and activates the other in one step.
+    """
     for manager in _managers(seen):
         for each in _inactive(manager):
             owners = _owners(manager, each)
@@ -126,7 +152,11 @@ def interfaces_claimed(seen: Observations) -> Iterator[Finding]:
 
 
 def controller_inactive(seen: Observations) -> Iterator[Finding]:
-    """Controllers whose interfaces nobody else commands are active."""
+    """
+    Controllers whose interfaces nobody else commands are active.
+
+    Activate it, or unload it.
+    """
     for manager in _managers(seen):
         if any(each.state != 'active' for each in manager.components):
             continue  # of that hardware_inactive tells
@@ -144,7 +174,11 @@ def controller_inactive(seen: Observations) -> Iterator[Finding]:
 
 
 def no_joint_state_broadcaster(seen: Observations) -> Iterator[Finding]:
-    """Joints that are commanded have their states published."""
+    """
+    Joints that are commanded have their states published.
+
+    Without, the links that move have no frames.
+    """
     for manager in _managers(seen):
         kinds = [each.type_name for each in manager.controllers]
         has_drive = any(c.commands and c.state == 'active' for c in manager.controllers)
@@ -163,7 +197,11 @@ def no_joint_state_broadcaster(seen: Observations) -> Iterator[Finding]:
 
 
 def drive_contradicts_description(seen: Observations) -> Iterator[Finding]:
-    """Wheels, radius, separation and base frame of a drive are those of the description."""
+    """
+    Wheels, radius, separation and base frame of a drive are those of the description.
+
+    The rules are those of check_urdf (docs/check_urdf.md).
+    """
     if seen.description is None:
         return
     for manager in _managers(seen):
@@ -186,7 +224,12 @@ def drive_contradicts_description(seen: Observations) -> Iterator[Finding]:
 
 
 def former_parameters(seen: Observations) -> Iterator[Finding]:
-    """No parameter is of an earlier release."""
+    """
+    No parameter is of an earlier release.
+
+    It is one of Humble, Foxy or ROS 1. ROS ignores what no node declares; the controllers here say
+    what they make of it.
+    """
     if seen.controllers is None:
         return
     for line in seen.controllers.log:

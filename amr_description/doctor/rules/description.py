@@ -18,7 +18,12 @@ _LONGEST = 3
 
 
 def description_missing(seen: Observations) -> Iterator[Finding]:
-    """Who subscribes to a description gets one."""
+    """
+    Who subscribes to a description gets one.
+
+    Nobody publishes ``robot_description``, or somebody does so in another namespace. Start
+    ``robot_state_publisher`` with the URDF in the namespace of who waits, or remap.
+    """
     for topic in _topics(seen):
         waiting = [each for each in topic.subscribers if not passes_on(each)]
         if topic.publishers or not waiting:
@@ -37,7 +42,12 @@ def description_missing(seen: Observations) -> Iterator[Finding]:
 
 
 def description_not_latched(seen: Observations) -> Iterator[Finding]:
-    """A description is kept for whoever comes later."""
+    """
+    A description is kept for whoever comes later.
+
+    It is sent once, with durability ``TRANSIENT_LOCAL``. A volatile publisher does not even match
+    who asks for that.
+    """
     for topic in _topics(seen):
         if topic.volatile:
             yield error(
@@ -51,7 +61,11 @@ def description_not_latched(seen: Observations) -> Iterator[Finding]:
 
 
 def description_invalid(seen: Observations) -> Iterator[Finding]:
-    """A description has no error of ``check_urdf``."""
+    """
+    A description has no error of ``check_urdf``.
+
+    It lists all of them with their lines (docs/check_urdf.md).
+    """
     for topic in _topics(seen):
         for text in topic.texts:
             errors = examined(text).errors
@@ -70,7 +84,11 @@ def description_invalid(seen: Observations) -> Iterator[Finding]:
 
 
 def descriptions_differ(seen: Observations) -> Iterator[Finding]:
-    """There is one description on a topic, and robot_state_publisher has the same."""
+    """
+    There is one description on a topic, and robot_state_publisher has the same.
+
+    End one publisher, or give each robot a namespace.
+    """
     if seen.description is None:
         return
     for topic in _topics(seen):
@@ -98,7 +116,11 @@ def descriptions_differ(seen: Observations) -> Iterator[Finding]:
 
 
 def description_of_another_robot(seen: Observations) -> Iterator[Finding]:
-    """The hardware of a controller manager is that of the published description."""
+    """
+    The hardware of a controller manager is that of the published description.
+
+    The file was changed, or one of two programs was restarted. Restart both with the same file.
+    """
     if seen.description is None or seen.controllers is None:
         return
     for manager in seen.controllers.managers:

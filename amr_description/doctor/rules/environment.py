@@ -29,7 +29,11 @@ _NEW_SHELL = 'open a new shell, and source there only'
 
 
 def other_distribution(seen: Observations) -> Iterator[Finding]:
-    """Distributions of ROS are not mixed in one shell."""
+    """
+    Distributions of ROS are not mixed in one shell.
+
+    A line in ``~/.bashrc`` sources another ROS in every shell. Take it out, and open a new shell.
+    """
     if (environment := seen.environment) is None:
         return
     found = _sourced(environment)
@@ -55,7 +59,11 @@ def other_distribution(seen: Observations) -> Iterator[Finding]:
 
 
 def mixed_installations(seen: Observations) -> Iterator[Finding]:
-    """The rclpy of PyPI brings its own libraries, and takes none of ``/opt/ros``."""
+    """
+    The rclpy of PyPI brings its own libraries, and takes none of ``/opt/ros``.
+
+    Both are Jazzy, but compiled apart. Use one of them in a shell (docs/install.md#two-underlays).
+    """
     environment = seen.environment
     if environment is None or not environment.is_from_wheels:
         return
@@ -72,7 +80,12 @@ def mixed_installations(seen: Observations) -> Iterator[Finding]:
 
 
 def conda(seen: Observations) -> Iterator[Finding]:
-    """Libraries of conda are not for programs outside of it."""
+    """
+    Libraries of conda are not for programs outside of it.
+
+    They are loaded by every program while its folders are in ``LD_LIBRARY_PATH`` or
+    ``PYTHONPATH``.
+    """
     if (environment := seen.environment) is None:
         return
     prefix = environment.value('CONDA_PREFIX')
@@ -92,7 +105,12 @@ def conda(seen: Observations) -> Iterator[Finding]:
 
 
 def python_path(seen: Observations) -> Iterator[Finding]:
-    """Modules of one version of Python are not for another one."""
+    """
+    Modules of one version of Python are not for another one.
+
+    ``PYTHONPATH`` names those of another one, as of a workspace built on another system. Build it
+    again.
+    """
     if (environment := seen.environment) is None:
         return
     wrong = [
@@ -114,7 +132,11 @@ def python_path(seen: Observations) -> Iterator[Finding]:
 
 
 def missing_prefix(seen: Observations) -> Iterator[Finding]:
-    """Prefixes in which packages are looked for are there."""
+    """
+    Prefixes in which packages are looked for are there.
+
+    A workspace was sourced, and then moved or deleted.
+    """
     if seen.environment is None:
         return
     missing = seen.environment.missing_folders.get('AMENT_PREFIX_PATH', ())
@@ -129,7 +151,11 @@ def missing_prefix(seen: Observations) -> Iterator[Finding]:
 
 
 def domain(seen: Observations) -> Iterator[Finding]:
-    """A ROS domain is an integer from 0 to 232."""
+    """
+    A ROS domain is an integer from 0 to 232.
+
+    Where ``ROS_DOMAIN_ID`` is not set, the domain is 0.
+    """
     text = seen.environment.value(_DOMAIN) if seen.environment else ''
     if text and (not text.isdecimal() or int(text) > LAST_DOMAIN):
         yield error(
@@ -141,7 +167,12 @@ def domain(seen: Observations) -> Iterator[Finding]:
 
 
 def discovery_range(seen: Observations) -> Iterator[Finding]:
-    """The range is one of four words, in capital letters, and OFF is not meant for robots."""
+    """
+    The range is one of four words, in capital letters, and OFF is not meant for robots.
+
+    ``ROS_AUTOMATIC_DISCOVERY_RANGE`` is ``SUBNET``, ``LOCALHOST``, ``OFF`` or ``SYSTEM_DEFAULT``.
+    With ``OFF`` nobody is found.
+    """
     text = seen.environment.value(_RANGE) if seen.environment else ''
     if text and text not in RANGES:
         known = text.upper() if text.upper() in RANGES else 'SUBNET'
@@ -163,7 +194,11 @@ def discovery_range(seen: Observations) -> Iterator[Finding]:
 
 
 def localhost_only(seen: Observations) -> Iterator[Finding]:
-    """``ROS_LOCALHOST_ONLY`` is deprecated since Iron, and wins over what took its place."""
+    """
+    ``ROS_LOCALHOST_ONLY`` is deprecated since Iron, and wins over what took its place.
+
+    It wins over the discovery range and over static peers.
+    """
     if (environment := seen.environment) is None or environment.value(_LOCALHOST_ONLY) != '1':
         return
     contradicted = [
@@ -188,7 +223,11 @@ def localhost_only(seen: Observations) -> Iterator[Finding]:
 
 
 def static_peers(seen: Observations) -> Iterator[Finding]:
-    """Peers are addresses or names of hosts, separated by semicolons."""
+    """
+    Peers are addresses or names of hosts, separated by semicolons.
+
+    Quote them: ``ROS_STATIC_PEERS='10.0.0.2;10.0.0.3'``.
+    """
     text = seen.environment.value(_PEERS) if seen.environment else ''
     if re.search(r'[,\s]', text):
         wanted = ';'.join(filter(None, re.split(r'[;,\s]+', text)))
@@ -201,7 +240,12 @@ def static_peers(seen: Observations) -> Iterator[Finding]:
 
 
 def silent_peers(seen: Observations) -> Iterator[Finding]:
-    """Of hosts that are named as peers, nodes are found."""
+    """
+    Of hosts that are named as peers, nodes are found.
+
+    Nothing runs there, it is in another domain, or a firewall drops what it sends
+    (docs/two_machines.md#when-nothing-is-seen).
+    """
     if seen.environment is None or seen.machine is None or any(static_peers(seen)):
         return
     own = {address for each in seen.machine.interfaces for address in each.addresses}
@@ -227,7 +271,11 @@ def silent_peers(seen: Observations) -> Iterator[Finding]:
 
 
 def discovery_server(seen: Observations) -> Iterator[Finding]:
-    """With ``ROS_DISCOVERY_SERVER`` nodes are found through that server alone."""
+    """
+    With ``ROS_DISCOVERY_SERVER`` nodes are found through that server alone.
+
+    It does not run.
+    """
     if seen.environment is None or not seen.environment.unheard_servers:
         return
     yield error(
@@ -239,7 +287,12 @@ def discovery_server(seen: Observations) -> Iterator[Finding]:
 
 
 def rmw_implementation(seen: Observations) -> Iterator[Finding]:
-    """The middleware that is chosen is installed."""
+    """
+    The middleware that is chosen is installed.
+
+    Here it is ``rmw_fastrtps_cpp``. One that is not installed ends every program of ROS as it
+    starts (exit code 102).
+    """
     if (environment := seen.environment) is None or not environment.rmw_implementations:
         return
     text, known = environment.value(_RMW), sorted(environment.rmw_implementations)
@@ -254,7 +307,11 @@ def rmw_implementation(seen: Observations) -> Iterator[Finding]:
 
 
 def profiles_file(seen: Observations) -> Iterator[Finding]:
-    """A profile of Fast DDS can be read."""
+    """
+    A profile of Fast DDS can be read.
+
+    Fast DDS ignores one that is not there or is no XML, and says so in one line of many.
+    """
     for name in PROFILES if seen.environment else ():
         fault = seen.environment.file_faults.get(name)  # type: ignore[union-attr]
         if fault:
@@ -268,7 +325,11 @@ def profiles_file(seen: Observations) -> Iterator[Finding]:
 
 
 def security(seen: Observations) -> Iterator[Finding]:
-    """Where security is enforced there is a keystore."""
+    """
+    Where security is enforced there is a keystore.
+
+    ``ROS_SECURITY_STRATEGY=Enforce`` has nodes refuse to start without keys.
+    """
     if (environment := seen.environment) is None:
         return
     fault = environment.file_faults.get('ROS_SECURITY_KEYSTORE')

@@ -19,7 +19,13 @@ from amr_description.doctor.rules.wording import names_of, short_type
 
 
 def mismatched_types(seen: Observations) -> Iterator[Finding]:
-    """Publishers and subscriptions of one topic with other types: nothing arrives."""
+    """
+    Publishers and subscriptions of one topic with other types: nothing arrives.
+
+    The classic: ``Twist`` for a controller that takes ``TwistStamped``. Teleop nodes have ``-p
+    stamped:=true``, Nav2 has ``enable_stamped_cmd_vel: true``, twist_mux takes both
+    (docs/localisation.md#between-planner-and-wheels).
+    """
     for topic in seen.graph.topics if seen.graph else ():
         deaf = _unmatched(topic.subscriptions, topic.publishers)
         mute = _unmatched(topic.publishers, topic.subscriptions)
@@ -43,7 +49,11 @@ def mismatched_types(seen: Observations) -> Iterator[Finding]:
 
 
 def mismatched_definitions(seen: Observations) -> Iterator[Finding]:
-    """One type by name, built of two definitions: a workspace was not built, or not sourced."""
+    """
+    One type by name, built of two definitions: a workspace was not built, or not sourced.
+
+    Build the package from the same sources on both sides, source it, and start both nodes again.
+    """
     for topic in seen.graph.topics if seen.graph else ():
         ends = [e for e in (*topic.publishers, *topic.subscriptions) if e.type_hash]
         for name in dict.fromkeys(each.type_name for each in ends):
@@ -96,7 +106,13 @@ def _forward(is_stamped: bool) -> str:
 
 
 def duplicate_node_names(seen: Observations) -> Iterator[Finding]:
-    """Two nodes of one name have the same services: either of them answers, or both do."""
+    """
+    Two nodes of one name have the same services: either of them answers, or both do.
+
+    ``ros2 param set`` reaches one of them, or both. One is left from a run before, or two robots
+    share a domain. End one, rename it (``-r __node:=NAME``), or give each robot a namespace or a
+    ``ROS_DOMAIN_ID``.
+    """
     found = defaultdict(list)
     for node in seen.graph.nodes if seen.graph else ():
         found[node.name].append(node)
@@ -129,7 +145,12 @@ def duplicate_node_names(seen: Observations) -> Iterator[Finding]:
 
 
 def frozen_nodes(seen: Observations) -> Iterator[Finding]:
-    """A node that does not serve its callbacks, though it is in the graph."""
+    """
+    A node that does not serve its callbacks, though it is in the graph.
+
+    Ctrl-Z has stopped it: ``kill -CONT PID``. Or a callback waits, as in a sleep or a synchronous
+    service call.
+    """
     nodes = [each for each in (seen.graph.nodes if seen.graph else ())]
     for name in dict.fromkeys(each.name for each in nodes if each.is_stopped):
         process = next(each.process for each in nodes if each.name == name and each.is_stopped)

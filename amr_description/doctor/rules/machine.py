@@ -28,7 +28,12 @@ _MENDED = (2, 14, 6)
 
 
 def c_library(seen: Observations) -> Iterator[Finding]:
-    """The wheels of ROS are compiled for glibc 2.28 or newer, on x86-64."""
+    """
+    The wheels of ROS are compiled for glibc 2.28 or newer, on x86-64.
+
+    Debian 10, Ubuntu 20.04, RHEL 8 and later have it. Alpine has musl, and a Raspberry Pi another
+    processor: use a container.
+    """
     machine = seen.machine
     if machine is None or not _has_wheels(seen):
         return
@@ -48,7 +53,12 @@ def c_library(seen: Observations) -> Iterator[Finding]:
 
 
 def python_abi(seen: Observations) -> Iterator[Finding]:
-    """Binary modules load only in the version of Python that they were compiled for."""
+    """
+    Binary modules load only in the version of Python that they were compiled for.
+
+    Another ``python3`` came first in ``PATH``, or the environment was copied. ``scripts/activate``
+    in a new shell has the right one.
+    """
     if seen.machine is None:
         return
     python = seen.machine.python
@@ -65,7 +75,12 @@ def python_abi(seen: Observations) -> Iterator[Finding]:
 
 
 def rclpy_import(seen: Observations) -> Iterator[Finding]:
-    """Whatever is of ROS imports rclpy."""
+    """
+    Whatever is of ROS imports rclpy.
+
+    It is not installed for this Python, or one of its libraries cannot be loaded. Mostly another
+    ROS or conda is sourced in this shell. The finding has the words of the loader.
+    """
     if seen.machine is None or any(python_abi(seen)) or any(c_library(seen)):
         return
     python = seen.machine.python
@@ -81,7 +96,12 @@ def rclpy_import(seen: Observations) -> Iterator[Finding]:
 
 
 def disk_full(seen: Observations) -> Iterator[Finding]:
-    """Logs, bags and shared memory need some room."""
+    """
+    Logs, bags and shared memory need some room.
+
+    Below 200 MB where logs or the current folder are: a warning; below 10 MB: an error. Old logs
+    are in ``~/.ros/log``, one folder a run.
+    """
     for disk in seen.machine.disks if seen.machine else ():
         if not disk.total or disk.free >= _NEARLY_FULL:
             continue
@@ -103,7 +123,12 @@ def disk_full(seen: Observations) -> Iterator[Finding]:
 
 
 def log_folder(seen: Observations) -> Iterator[Finding]:
-    """A node that cannot make its log file does not start."""
+    """
+    A node that cannot make its log file does not start.
+
+    A program once started by root leaves a folder that only root can write. ``ROS_LOG_DIR`` names
+    another one.
+    """
     for disk in seen.machine.disks if seen.machine else ():
         if disk.purpose == 'log files' and not disk.is_writable:
             yield error(
@@ -116,7 +141,12 @@ def log_folder(seen: Observations) -> Iterator[Finding]:
 
 
 def memory_short(seen: Observations) -> Iterator[Finding]:
-    """Without memory programs wait for disks, or the kernel ends one."""
+    """
+    Without memory programs wait for disks, or the kernel ends one.
+
+    Less than 5 % of it is free, or programs wait for memory much of their time. Browsers, builds
+    and a second simulator take the most.
+    """
     machine = seen.machine
     if machine is None or not machine.memory:
         return
@@ -136,7 +166,12 @@ def memory_short(seen: Observations) -> Iterator[Finding]:
 
 
 def overloaded(seen: Observations) -> Iterator[Finding]:
-    """A robot's programs get a processor when they want one."""
+    """
+    A robot's programs get a processor when they want one.
+
+    More than four programs a processor want to run, in the mean of the last minute. What comes
+    late then, comes late because of that.
+    """
     machine = seen.machine
     if machine and machine.load > _HIGHEST_LOAD * machine.processors:
         yield warning(
@@ -149,7 +184,11 @@ def overloaded(seen: Observations) -> Iterator[Finding]:
 
 
 def loopback_down(seen: Observations) -> Iterator[Finding]:
-    """Nodes of one host talk by the loopback interface."""
+    """
+    Nodes of one host talk by the loopback interface.
+
+    Some containers and network namespaces have no interface ``lo``.
+    """
     for each in seen.machine.interfaces if seen.machine else ():
         if each.is_loopback and not each.is_up:
             yield error(
@@ -161,7 +200,13 @@ def loopback_down(seen: Observations) -> Iterator[Finding]:
 
 
 def open_network(seen: Observations) -> Iterator[Finding]:
-    """Who is heard by other hosts should have a Fast DDS whose known holes are mended."""
+    """
+    Who is heard by other hosts should have a Fast DDS whose known holes are mended.
+
+    Fast DDS before 2.14.6 has ten known holes. By one of them anybody in the network exhausts the
+    memory of a node. DDS asks for no password in any case
+    (docs/two_machines.md#what-listens-where-and-who-can-drive).
+    """
     if seen.environment is None or not is_open(seen.environment):
         return
     version = tuple(int(each) for each in re.findall(r'\d+', seen.environment.fastdds_version))
@@ -181,7 +226,12 @@ def _dotted(version: tuple[int, ...]) -> str:
 
 
 def multicast(seen: Observations) -> Iterator[Finding]:
-    """Nodes of other hosts are found by multicast, unless peers or a server are named."""
+    """
+    Nodes of other hosts are found by multicast, unless peers or a server are named.
+
+    Tunnels of a VPN and some interfaces do not carry it. Name the hosts on both sides
+    (docs/two_machines.md).
+    """
     if seen.machine is None or seen.environment is None:
         return
     if not reaches_network(seen.environment):
@@ -200,7 +250,12 @@ def multicast(seen: Observations) -> Iterator[Finding]:
 
 
 def clock_unsynchronised(seen: Observations) -> Iterator[Finding]:
-    """Clocks of hosts that share transforms and scans agree."""
+    """
+    Clocks of hosts that share transforms and scans agree.
+
+    Nodes of another host are in the graph, and the kernel says that no service sets this clock.
+    Some milliseconds apart, transforms and scans do not fit.
+    """
     if seen.machine is None or seen.machine.is_clock_synchronised is not False:
         return
     hosts = sorted({each.host for each in seen.graph.nodes if each.host}) if seen.graph else []
@@ -215,7 +270,11 @@ def clock_unsynchronised(seen: Observations) -> Iterator[Finding]:
 
 
 def encoding(seen: Observations) -> Iterator[Finding]:
-    """URDFs, YAML files and messages are UTF-8."""
+    """
+    URDFs, YAML files and messages are UTF-8.
+
+    With another encoding, a ``µ`` is read wrongly. ``C.UTF-8`` is there on every Linux.
+    """
     machine = seen.machine
     if machine and machine.encoding.lower().replace('-', '').replace('_', '') != 'utf8':
         yield warning(

@@ -13,7 +13,11 @@ _OTHERS = ('clock.', 'time.', 'cmd_vel.', 'drive.', 'tf.one_parent', 'scan.lengt
 
 
 def navigation_contract(seen: Observations) -> Iterator[Finding]:
-    """Topics, frames, rates and stamps are as ``check_navigation`` asks."""
+    """
+    Topics, frames, rates and stamps are as ``check_navigation`` asks.
+
+    check_navigation lists all of them, and drives the robot if asked to (docs/nav2.md).
+    """
     if seen.navigation is None:
         return
     from amr_description.navigation.contract.rules import examine, RULES as CONTRACT  # with numpy

@@ -19,7 +19,11 @@ _SMALL = 50_000_000
 
 
 def stopped_process(seen: Observations) -> Iterator[Finding]:
-    """A process of ROS runs; one that was stopped by Ctrl-Z is in the graph, and silent."""
+    """
+    A process of ROS runs; one that was stopped by Ctrl-Z is in the graph, and silent.
+
+    ``fg`` in its shell, or ``kill -CONT PID``, lets it go on.
+    """
     # Those whose nodes are in the graph are named by the rules about it.
     known = {each.process for each in seen.graph.nodes} if seen.graph else set()
     stopped = [
@@ -36,7 +40,11 @@ def stopped_process(seen: Observations) -> Iterator[Finding]:
 
 
 def orphaned_process(seen: Observations) -> Iterator[Finding]:
-    """What a bring-up has started ends with it."""
+    """
+    What a bring-up has started ends with it.
+
+    A bring-up was killed, and something runs on. The next start would have its nodes twice.
+    """
     if seen.processes is None:
         return
     runs = seen.processes.runs
@@ -53,7 +61,11 @@ def orphaned_process(seen: Observations) -> Iterator[Finding]:
 
 
 def other_domain(seen: Observations) -> Iterator[Finding]:
-    """Nodes find each other in one domain."""
+    """
+    Nodes find each other in one domain.
+
+    Nothing is in the domain of this shell, and something is in another domain of this host.
+    """
     processes = seen.processes
     if processes is None or processes.is_alone is not True or _of_domain(seen):
         return
@@ -73,7 +85,11 @@ def other_domain(seen: Observations) -> Iterator[Finding]:
 
 
 def other_middleware(seen: Observations) -> Iterator[Finding]:
-    """Nodes of one domain use one middleware."""
+    """
+    Nodes of one domain use one middleware.
+
+    Topics of Fast DDS and Cyclone DDS may meet. Services and parameters do not.
+    """
     if seen.environment is None:
         return
     own = seen.environment.value(_RMW) or _DEFAULT_RMW
@@ -90,7 +106,11 @@ def other_middleware(seen: Observations) -> Iterator[Finding]:
 
 
 def undiscoverable_process(seen: Observations) -> Iterator[Finding]:
-    """A process with the discovery range OFF is found by nobody."""
+    """
+    A process with the discovery range OFF is found by nobody.
+
+    Start it again with another range.
+    """
     off = [
         each
         for each in _of_domain(seen)
@@ -106,7 +126,11 @@ def undiscoverable_process(seen: Observations) -> Iterator[Finding]:
 
 
 def open_files(seen: Observations) -> Iterator[Finding]:
-    """Each node and each camera need descriptors of files."""
+    """
+    Each node and each camera need descriptors of files.
+
+    A process is near its limit. A page in the browser, bags and cameras take some.
+    """
     for each in _of_domain(seen):
         if each.most_open_files and each.open_files >= _MOST_FILES * each.most_open_files:
             yield warning(
@@ -119,7 +143,11 @@ def open_files(seen: Observations) -> Iterator[Finding]:
 
 
 def shared_memory(seen: Observations) -> Iterator[Finding]:
-    """Programs that end remove their shared memory; those that are killed do not."""
+    """
+    Programs that end remove their shared memory; those that are killed do not.
+
+    ``bringup`` removes it at its end; other programs do not.
+    """
     left = seen.processes.left_memory if seen.processes else None
     if left and left.size >= _SMALL:
         yield warning(

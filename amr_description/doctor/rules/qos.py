@@ -31,7 +31,12 @@ class QosFault(NamedTuple):
 
 
 def incompatible_qos(seen: Observations) -> Iterator[Finding]:
-    """What a publisher offers is less than what a subscription requests: nothing arrives."""
+    """
+    What a publisher offers is less than what a subscription requests: nothing arrives.
+
+    Subscribe to sensors with best effort, to ``map`` and ``robot_description`` with transient
+    local. Which policies match: docs/doctor.md#which-qos-matches.
+    """
     for topic in seen.graph.topics if seen.graph else ():
         for fault, pairs in _incompatible(topic).items():
             publishers = [each for each, _ in pairs]

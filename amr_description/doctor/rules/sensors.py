@@ -58,7 +58,12 @@ _SHOWN = 4
 
 
 def sensor_frame_missing(seen: Observations) -> Iterator[Finding]:
-    """The frame of a sensor is known to tf2."""
+    """
+    The frame of a sensor is known to tf2.
+
+    Gazebo calls frames ``robot/link/sensor`` unless ``<gz_frame_id>`` is set; a driver has a
+    parameter ``frame_id``. Or publish a static transform.
+    """
     if seen.sensors is None or seen.transforms is None:
         return
     for each in seen.sensors.framed:
@@ -86,7 +91,11 @@ def sensor_frame_missing(seen: Observations) -> Iterator[Finding]:
 
 
 def sensor_stamp(seen: Observations) -> Iterator[Finding]:
-    """The stamp of a message is the time of its measurement."""
+    """
+    The stamp of a message is the time of its measurement.
+
+    It is more than 2 s (in a simulation 10 s) from the arrival: see tf_stale.
+    """
     if seen.sensors is None:
         return
     is_simulated = seen.transforms is not None and seen.transforms.is_simulated
@@ -110,7 +119,11 @@ def sensor_stamp(seen: Observations) -> Iterator[Finding]:
 
 
 def scan_length(seen: Observations) -> Iterator[Finding]:
-    """A scan has as many ranges as its angles say."""
+    """
+    A scan has as many ranges as its angles say.
+
+    slam_toolbox computes the number from the angles, and refuses others.
+    """
     if not (scans := _scans(seen)):
         return
     from amr_description.navigation.contract.scan_length import expected_length  # with numpy
@@ -141,7 +154,12 @@ def scan_length(seen: Observations) -> Iterator[Finding]:
 
 
 def scan_empty(seen: Observations) -> Iterator[Finding]:
-    """A lidar sees something."""
+    """
+    A lidar sees something.
+
+    All ranges are 0 or NaN, where one without a hit has ``inf`` (REP 117). It stands still or is
+    covered; Gazebo's needs OpenGL.
+    """
     for each in _scans(seen):
         if not each.count or each.hits:
             continue
@@ -160,7 +178,11 @@ def scan_empty(seen: Observations) -> Iterator[Finding]:
 
 
 def image_layout(seen: Observations) -> Iterator[Finding]:
-    """Data, step, encoding and size of a picture agree."""
+    """
+    Data, step, encoding and size of a picture agree.
+
+    Pictures are looked at only while somebody else subscribes.
+    """
     for each in _images(seen):
         pixel = _BYTES.get(each.encoding)
         who = _names(each.publishers)
@@ -190,7 +212,11 @@ def image_layout(seen: Observations) -> Iterator[Finding]:
 
 
 def camera_info(seen: Observations) -> Iterator[Finding]:
-    """A camera publishes its camera_info, of the size of its pictures."""
+    """
+    A camera publishes its camera_info, of the size of its pictures.
+
+    It has a calibration.
+    """
     for each in _images(seen):
         who = _names(each.publishers)
         if each.info_size is None or {*each.publishers}.isdisjoint(each.info_publishers):
@@ -217,7 +243,11 @@ def camera_info(seen: Observations) -> Iterator[Finding]:
 
 
 def imu_orientation(seen: Observations) -> Iterator[Finding]:
-    """An orientation is a rotation, or marked as missing."""
+    """
+    An orientation is a rotation, or marked as missing.
+
+    All zeros are none. Without one, set ``orientation_covariance[0]`` to -1.
+    """
     for each in seen.sensors.imus if seen.sensors is not None else ():
         length = math.hypot(*each.orientation)
         who = _names(each.publishers)
@@ -232,7 +262,11 @@ def imu_orientation(seen: Observations) -> Iterator[Finding]:
 
 
 def joint_state_fields(seen: Observations) -> Iterator[Finding]:
-    """Joint states name each joint once, with a position that is a number."""
+    """
+    Joint states name each joint once, with a position that is a number.
+
+    ``name`` and ``position`` are of one length.
+    """
     for each in _joints(seen):
         twice = [name for name, count in Counter(each.names).items() if count > 1]
         what = ''
@@ -253,7 +287,11 @@ def joint_state_fields(seen: Observations) -> Iterator[Finding]:
 
 
 def joint_state_publishers(seen: Observations) -> Iterator[Finding]:
-    """A joint has one publisher of its state."""
+    """
+    A joint has one publisher of its state.
+
+    Mostly a ``joint_state_publisher`` runs beside a robot or a simulation.
+    """
     by_topic: dict[str, list[ObservedJoints]] = {}
     for each in _joints(seen):
         by_topic.setdefault(each.topic, []).append(each)
@@ -277,7 +315,12 @@ def joint_state_publishers(seen: Observations) -> Iterator[Finding]:
 
 
 def odometry_diverges(seen: Observations) -> Iterator[Finding]:
-    """Odometry is near the truth of the simulator."""
+    """
+    Odometry is near the truth of the simulator.
+
+    They differ by more than a quarter: the wheels in the parameters are not those of the robot, or
+    they slip. ``calibrate`` measures how far (docs/your_own_robot.md).
+    """
     for each in seen.sensors.travels if seen.sensors is not None else ():
         wrong = [text for text in (_wrong_way(each), _wrong_turn(each)) if text]
         if wrong:

@@ -25,7 +25,12 @@ _OPPOSITES = ({'local', 'global'}, {'min', 'max'})
 
 
 def misnamed_topics(seen: Observations) -> Iterator[Finding]:
-    """Nobody publishes what is subscribed to, but nearly so, and nobody hears that."""
+    """
+    Nobody publishes what is subscribed to, but nearly so, and nobody hears that.
+
+    A namespace differs, as in ``/cmd_vel`` and ``/diff_drive_controller/cmd_vel``, or a letter.
+    Remap one of them.
+    """
     topics = seen.graph.topics if seen.graph else ()
     unheard = [t for t in topics if t.publishers and not t.subscriptions]
     unpublished = [t for t in topics if t.subscriptions and not t.publishers]

@@ -25,7 +25,12 @@ _SHOWN = 4
 
 
 def tf_two_parents(seen: Observations) -> Iterator[Finding]:
-    """A frame has one parent."""
+    """
+    A frame has one parent.
+
+    The usual pair: odometry publishes ``odom -> base_link``, and the URDF has ``base_footprint ->
+    base_link``. Odometry moves the root: ``base_frame_id: base_footprint``.
+    """
     for child, edges in _children(seen):
         parents = _by(edges, lambda each: each.parent)
         if len(parents) < 2:
@@ -43,7 +48,12 @@ def tf_two_parents(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_two_publishers(seen: Observations) -> Iterator[Finding]:
-    """A transform has one publisher."""
+    """
+    A transform has one publisher.
+
+    Mostly a drive controller and an EKF. Set ``enable_odom_tf: false`` for the one, or
+    ``publish_tf: false`` for the other.
+    """
     for child, edges in _children(seen):
         if len({each.parent for each in edges}) > 1:
             continue  # of that tf_two_parents tells
@@ -69,7 +79,11 @@ def tf_two_publishers(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_static_and_dynamic(seen: Observations) -> Iterator[Finding]:
-    """A transform is either on /tf or on /tf_static."""
+    """
+    A transform is either on /tf or on /tf_static.
+
+    End the publisher that is wrong.
+    """
     for child, edges in _children(seen):
         moving = [each for each in edges if not each.is_static]
         static = [each for each in edges if each.is_static]
@@ -84,7 +98,11 @@ def tf_static_and_dynamic(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_no_rotation(seen: Observations) -> Iterator[Finding]:
-    """A rotation is a quaternion of length 1, a translation is finite."""
+    """
+    A rotation is a quaternion of length 1, a translation is finite.
+
+    Nobody has set a rotation of zeros: ``w: 1`` is no rotation.
+    """
     for child, edges in _children(seen):
         for each in edges:
             length = math.hypot(*each.rotation)
@@ -104,7 +122,11 @@ def tf_no_rotation(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_leading_slash(seen: Observations) -> Iterator[Finding]:
-    """Names of frames have no leading slash."""
+    """
+    Names of frames have no leading slash.
+
+    So it is since ROS 2.
+    """
     for tree in _trees(seen):
         for publisher, edges in _by(tree.edges, lambda each: each.publisher).items():
             bad = sorted({each.child for each in edges if each.has_slash})
@@ -120,7 +142,11 @@ def tf_leading_slash(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_future(seen: Observations) -> Iterator[Finding]:
-    """Stamps are not of the future."""
+    """
+    Stamps are not of the future.
+
+    They are more than 2 s (in a simulation 10 s) later than they come: a node on another clock.
+    """
     for tree in _trees(seen):
         latest = _LATE[_is_simulated(seen)]
         early = [e for e in tree.edges if e.oldest is not None and e.oldest < -latest]
@@ -136,7 +162,12 @@ def tf_future(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_stale(seen: Observations) -> Iterator[Finding]:
-    """Stamps are not of the past."""
+    """
+    Stamps are not of the past.
+
+    They are that much older than they come: a node without ``use_sim_time``, clocks of two
+    machines apart, or a node that repeats old data.
+    """
     for tree in _trees(seen):
         latest = _LATE[_is_simulated(seen)]
         late = [e for e in tree.edges if e.youngest is not None and e.youngest > latest]
@@ -152,7 +183,11 @@ def tf_stale(seen: Observations) -> Iterator[Finding]:
 
 
 def tf_islands(seen: Observations) -> Iterator[Finding]:
-    """The frames of one robot are one tree."""
+    """
+    The frames of one robot are one tree.
+
+    A static transform connects them. Often a name is misspelt.
+    """
     for tree in _trees(seen):
         islands = _components(tree)
         if len(islands) < 2 or _has_several_robots(seen) or not tree.is_complete:
@@ -179,7 +214,12 @@ def tf_islands(seen: Observations) -> Iterator[Finding]:
 
 
 def joints_without_state(seen: Observations) -> Iterator[Finding]:
-    """Each joint that moves has a state, or its links have no place."""
+    """
+    Each joint that moves has a state, or its links have no place.
+
+    A simulation or robot has a ``joint_state_broadcaster``. To look at a URDF alone, use
+    ``joint_state_publisher``.
+    """
     if seen.description is None or seen.sensors is None or seen.transforms is None:
         return
     for topic in seen.description.topics:

@@ -9,7 +9,11 @@ from amr_description.doctor.observations import Observations
 
 
 def unexamined(seen: Observations) -> Iterator[Finding]:
-    """Every section can be observed, and every rule applied to it."""
+    """
+    Every section can be observed, and every rule applied to it.
+
+    What is named here was not examined, so silence about it is no health. Please report the line.
+    """
     for what, why in (seen.faults or {}).items():
         yield warning(
             'unexamined',

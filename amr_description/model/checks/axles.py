@@ -32,7 +32,8 @@ def axles_are_across(context: CheckContext) -> Iterator[Finding]:
     The wheels that a controller names turn about the y axis of its base, within 26°.
 
     Wheels with the same fault share a finding. Where an angle on the way from the base to the
-    wheel is in degrees, it is named as the cause.
+    wheel is in degrees, it is named as the cause. With ``--controllers``, whatever the shape of
+    the wheels.
     """
     for drive in context.inputs.drives:
         groups: dict[tuple[str, str, str], list[Joint]] = {}

@@ -59,7 +59,11 @@ _FIX = 'add <inertial> with <mass value="…"/> (kg) and <inertia …/> (kg·m²
 
 
 def inertial_is_present(context: CheckContext) -> Iterator[Finding]:
-    """A link with a collision shape, or that a moving joint carries, has an ``<inertial>``."""
+    """
+    A link with a collision shape, or that a moving joint carries, has an ``<inertial>``.
+
+    Or a bare link fixed to it has the mass of both.
+    """
     robot = context.robot
     static = context.fixed_links
     massive = _bodies_with_inertial(context)
@@ -111,7 +115,11 @@ def base_has_mass(context: CheckContext) -> Iterator[Finding]:
 
 
 def mass_is_positive(context: CheckContext) -> Iterator[Finding]:
-    """Mass is above 0 and within what a solver can handle."""
+    """
+    Mass is above 0 and within what a solver can handle.
+
+    That is from 10⁻¹⁴ to 10⁹ kg.
+    """
     for link in context.robot.links:
         if link.inertial is None or LIGHTEST < link.inertial.mass < _HEAVIEST:
             continue
@@ -132,9 +140,9 @@ def inertia_is_possible(context: CheckContext) -> Iterator[Finding]:
     """
     The inertia is that of some distribution of mass.
 
-    Its principal moments are positive, and none exceeds the sum of the two others (their sum
-    minus the third is twice the second moment of the mass along the third axis). Of a link that
-    never moves, or whose mass is wrong, it is not looked at.
+    Its principal moments are positive, and none exceeds the sum of the two others (their sum minus
+    the third is twice the second moment of the mass along the third axis). Each is between 10⁻¹⁴
+    and 10¹² kg·m². Of a link that never moves, or whose mass is wrong, it is not looked at.
     """
     for link in context.robot.links:
         taken = _taken(context, link.name)
@@ -172,7 +180,8 @@ def inertia_fits_the_shape(context: CheckContext) -> Iterator[Finding]:
     The inertia is close to that of a homogeneous solid of the link's mass and collision shape.
 
     Formulas: :func:`~amr_description.model.shapes.solid_moments`, several shapes together by the
-    parallel axis theorem. Links with collision meshes are not checked.
+    parallel axis theorem. Links with collision meshes are not checked. Close is within a factor of
+    3, and on its axes.
     """
     for link in context.robot.links:
         solid = _solid_moments(link)

@@ -27,7 +27,11 @@ _TOLERANCE = 0.001
 
 
 def limits_leave_a_range(context: CheckContext) -> Iterator[Finding]:
-    """The limits of a joint that has them are not equal."""
+    """
+    The limits of a joint that has them are not equal.
+
+    Such a joint cannot move.
+    """
     for joint in context.robot.joints:
         if joint.type not in (JointType.REVOLUTE, JointType.PRISMATIC) or joint.limit is None:
             continue

@@ -38,7 +38,11 @@ def meshes_can_be_read(context: CheckContext) -> Iterator[Finding]:
 
 
 def meshes_are_in_metres(context: CheckContext) -> Iterator[Finding]:
-    """No mesh is a thousand times too large: its numbers are m, and CAD programs write mm."""
+    """
+    No mesh is a thousand times too large: its numbers are m, and CAD programs write mm.
+
+    Too large is what is longer than 10 m, or 1000 times the other shapes of its link.
+    """
     for use in context.meshes:
         if use.triangles is None:
             continue
@@ -76,7 +80,11 @@ def meshes_have_z_up(context: CheckContext) -> Iterator[Finding]:
 
 
 def collision_meshes_are_closed(context: CheckContext) -> Iterator[Finding]:
-    """The mesh of a collision encloses a volume, of which mass and inertia can be had."""
+    """
+    The mesh of a collision encloses a volume, of which mass and inertia can be had.
+
+    It has no open edge.
+    """
     for use in context.meshes:
         if not use.touches or use.triangles is None:
             continue
@@ -95,7 +103,11 @@ def collision_meshes_are_closed(context: CheckContext) -> Iterator[Finding]:
 
 
 def collision_meshes_fill_their_hull(context: CheckContext) -> Iterator[Finding]:
-    """The mesh of a collision is about convex: MuJoCo, as most, lets its convex hull touch."""
+    """
+    The mesh of a collision is about convex: MuJoCo, as most, lets its convex hull touch.
+
+    The hull holds at most twice its volume.
+    """
     for use in context.meshes:
         if not use.touches or use.triangles is None:
             continue

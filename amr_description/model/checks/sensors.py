@@ -10,6 +10,11 @@ from amr_description.model.gazebo.sensors import read_sensors
 
 
 def sensors_can_work(context: CheckContext) -> Iterator[Finding]:
-    """Lidars, cameras and contact sensors have values that they can work with, and a link."""
+    """
+    Lidars, cameras and contact sensors have values that they can work with, and a link.
+
+    Types are known, rays, ranges, pictures and rates possible, frames are links, and each has
+    topics of its own.
+    """
     controlled = {each.name for info in context.hardware for each in info.sensors}
     yield from read_sensors(context.xml, context.robot, controlled).findings

@@ -25,7 +25,11 @@ _HEAVY = 10.0
 
 
 def lengths_are_in_metres(context: CheckContext) -> Iterator[Finding]:
-    """No shape, and no origin of a joint, is longer than 10 m, unless it is fixed to the world."""
+    """
+    No shape, and no origin of a joint, is longer than 10 m, unless it is fixed to the world.
+
+    The finding asks: ``160 m: millimetres?``
+    """
     for link in context.robot.links:
         if link.name in context.fixed_links:
             continue
@@ -52,7 +56,11 @@ def lengths_are_in_metres(context: CheckContext) -> Iterator[Finding]:
 
 
 def masses_are_in_kilograms(context: CheckContext) -> Iterator[Finding]:
-    """No link has a mass that its collision shapes cannot hold, were they solid osmium."""
+    """
+    No link has a mass that its collision shapes cannot hold, were they solid osmium.
+
+    That is, no link of more than 10 kg is denser than 50,000 kg/m³: ``grams?``
+    """
     for link in context.robot.links:
         if is_in_grams(link):
             assert link.inertial is not None

@@ -28,7 +28,7 @@ def test_a_variable_that_hides_all_nodes_is_named_last(tmp_path):
     finds = '[ERROR] [launch]: ros2 doctor finds: '
     assert what == f'{finds}ROS_AUTOMATIC_DISCOVERY_RANGE is OFF'
     assert fix == '    fix: export ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST'
-    assert see == '    see: docs/doctor.md#discovery_range'
+    assert see == '    see: docs/api/doctor.md#discovery_range'
 
 
 def test_a_fault_of_the_graph_is_named_last(tmp_path):
@@ -40,4 +40,4 @@ def test_a_fault_of_the_graph_is_named_last(tmp_path):
     assert not rclpy.ok()
     assert 'stopped because step-2 waited 2 s in vain' in stopped
     assert '/deaf' in what
-    assert see == '    see: docs/doctor.md#mismatched_types'
+    assert see == '    see: docs/api/doctor.md#mismatched_types'

@@ -22,7 +22,7 @@ from amr_description.ros.service_calls import wait_until
 LIVE = json.loads((TESTS / 'fixtures' / 'control' / 'live_stack.json').read_text())
 
 TOPICS_BEYOND = {
-    # The lock of drives, docs/wheeled_controllers.md.
+    # The lock of drives, docs/controllers.md.
     '/emergency_stop': {
         'type': 'std_msgs/msg/Bool',
         'pub': [],

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/navigation.md, "What Nav2 and slam_toolbox demand": typed, and the tables are true."""
+"""docs/nav2.md, "What Nav2 and slam_toolbox demand": typed, and the tables are true."""
 
 import re
 
@@ -13,11 +13,11 @@ from amr_description.navigation.contract.rules import RULES
 from amr_description.nodes.check_navigation import parser
 
 CHAPTERS = dict(
-    re.findall(
-        r'^## (.*?)\n(.*?)(?=^## |\Z)', Page('navigation.md').text, re.DOTALL | re.MULTILINE
-    )
+    re.findall(r'^## (.*?)\n(.*?)(?=^## |\Z)', Page('nav2.md').text, re.DOTALL | re.MULTILINE)
 )
-STACK = CHAPTERS['The stack `navigation`']
+STACK = re.search(
+    r'^## The stack `navigation`$.*?(?=^## )', Page('navigation.md').text, re.DOTALL | re.MULTILINE
+)[0]
 DEMANDS = CHAPTERS['What Nav2 and slam_toolbox demand']
 LINES = re.search(r'^```bash\n(.*?)^```$', DEMANDS, re.DOTALL | re.MULTILINE)[1].splitlines()
 

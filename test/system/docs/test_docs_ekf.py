@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/navigation.md, "Odometry of wheels and IMU", typed as it stands, in a real graph."""
+"""docs/localisation.md, "Odometry of wheels and IMU", typed as it stands, in a real graph."""
 
 import re
 
@@ -20,8 +20,8 @@ from amr_description.clock import NANOSECONDS
 from amr_description.ros.messages import nanoseconds
 
 CHAPTER = re.search(
-    r'^## Odometry of wheels and IMU$.*?(?=^## )',
-    Page('navigation.md').text,
+    r'^## Odometry of wheels and IMU$.*',
+    Page('localisation.md').text,
     re.DOTALL | re.MULTILINE,
 )[0]
 TYPED = [

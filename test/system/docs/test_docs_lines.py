@@ -21,17 +21,15 @@ from support.page_lines import command, typed
 from support.running_programs import PATIENCE, Program
 from support.shells import line_of
 
-ARM = Page('joint_trajectory_controller.md')
 CHAIN = Page('chain_a_controller.md')
 CONTROLLER = Page('write_your_own_controller.md')
 CONTROL = Page('ros2_control.md')
 CHECK = Page('check_urdf.md')
 GAZEBO = Page('from_gazebo.md')
-GRIPPER = Page('more_controllers.md')
 SENSORS = Page('sensors.md')
 SIMULATOR = Page('simulator.md')
-WATCH = Page('watch_a_running_stack.md')
-WHEELED = Page('wheeled_controllers.md')
+WATCH = Page('stacks.md')
+CONTROLLERS = Page('controllers.md')
 STATE = (
     'ros2 service call /mujoco_sim/set_simulation_state simulation_interfaces/srv/'
     'SetSimulationState "{state: {state: 2}}"',
@@ -94,7 +92,7 @@ def test_the_lidar_is_heard(robot):
 def test_the_robot_is_pushed_and_let_go(robot):
     typed(SIMULATOR, 'ros2 topic pub --once /mujoco_sim/wrench/persistent')
     typed(SIMULATOR, 'ros2 topic pub --once /mujoco_sim/wrench/clear')
-    typed(WHEELED, 'ros2 topic pub -1 /emergency_stop')
+    typed(CONTROLLERS, 'ros2 topic pub -1 /emergency_stop')
 
 
 def test_what_gazebo_users_ask(robot):

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/navigation.md, "Maps", and the footprint of docs/check_urdf.md, typed as they stand."""
+"""docs/localisation.md, "Maps", and the footprint of docs/check_urdf.md, typed as they stand."""
 
 import re
 
@@ -8,7 +8,9 @@ import pytest
 from support import shells
 from support.doc_pages import Page, ROOT
 
-MAPS = re.search(r'^## Maps$.*?(?=^## )', Page('navigation.md').text, re.DOTALL | re.MULTILINE)[0]
+MAPS = re.search(r'^## Maps$.*?(?=^## )', Page('localisation.md').text, re.DOTALL | re.MULTILINE)[
+    0
+]
 CHECK_URDF = Page('check_urdf.md').text
 
 

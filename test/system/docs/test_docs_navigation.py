@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/navigation.md, the stack, the mux and other machines: what can be typed here is typed."""
+"""The stack `navigation`, the mux and other machines: what can be typed here is typed."""
 
 import re
 
@@ -9,8 +9,8 @@ from support import shells
 from support.doc_pages import Page, ROOT
 from support.shells import line_of
 
-PAGE = Page('navigation.md')
-CHAPTERS = dict(re.findall(r'^## (.*?)\n(.*?)(?=^## |\Z)', PAGE.text, re.DOTALL | re.MULTILINE))
+TEXT = ''.join(Page(name).text for name in ('navigation.md', 'localisation.md', 'nav2.md'))
+CHAPTERS = dict(re.findall(r'^## (.*?)\n(.*?)(?=^## |\Z)', TEXT, re.DOTALL | re.MULTILINE))
 STACK = CHAPTERS['The stack `navigation`']
 BETWEEN = CHAPTERS['Between planner and wheels']
 DRIVE = CHAPTERS['Drive to a pose']

@@ -12,7 +12,7 @@ from support.page_lines import command, typed
 from support.running_programs import Program
 from support.shells import line_of
 
-ARM, GRIPPER = Page('joint_trajectory_controller.md'), Page('more_controllers.md')
+CONTROLLERS = Page('controllers.md')
 HARDWARE = Page('write_your_own_hardware.md')
 (MOCK,) = Page('write_your_own_controller.md').blocks('xml')
 
@@ -25,7 +25,7 @@ def test_an_arm_moves_and_its_gripper_closes(tmp_path):
     speed = f'{finger}      <state_interface name="velocity"/>\n'  # as this gripper wants it
     (tmp_path / 'arm.urdf').write_text(text.replace(finger, speed))
     (tmp_path / 'arm.yaml').write_text(
-        ARM.blocks('yaml')[0]
+        CONTROLLERS.blocks('yaml')[0]
         + '/**/gripper_controller:\n  ros__parameters:\n    joint: finger\n'
         + '    type: position_controllers/GripperActionController\n'
     )
@@ -33,9 +33,11 @@ def test_an_arm_moves_and_its_gripper_closes(tmp_path):
     prefixes = {'AMENT_PREFIX_PATH': os.environ['AMENT_PREFIX_PATH']}
     with Bringup(tmp_path, 'simulation', *words, **prefixes) as up:
         up.expect(r'ready in \d+\.\d s')
-        assert 'SUCCEEDED' in typed(ARM, 'ros2 action send_goal --feedback /arm_controller')
-        typed(ARM, 'ros2 topic pub --once /arm_controller/joint_trajectory')
-        assert 'position: ' in typed(GRIPPER, 'ros2 action send_goal /gripper_controller')
+        assert 'SUCCEEDED' in typed(
+            CONTROLLERS, 'ros2 action send_goal --feedback /arm_controller'
+        )
+        typed(CONTROLLERS, 'ros2 topic pub --once /arm_controller/joint_trajectory')
+        assert 'position: ' in typed(CONTROLLERS, 'ros2 action send_goal /gripper_controller')
         assert up.end(signal.SIGINT) == 0
 
 

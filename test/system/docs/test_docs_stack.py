@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/write_your_own_stack.md: its stack comes up, its other code runs, its words are true."""
+"""docs/stacks.md: its stack comes up, its other code runs, its words are true."""
 
 import ast
 import os
@@ -19,7 +19,7 @@ from amr_description.bringup.placement import Placement
 from amr_description.bringup.scheduler import TIMED_OUT
 from amr_description.bringup.stack_files import make_stack
 
-PAGE = Page('write_your_own_stack.md')
+PAGE = Page('stacks.md')
 MY_ARM, MY_DRIVER, MY_LAB = PAGE.blocks('python')
 ARM_YAML = Page('test_your_robot.md').blocks('yaml')[0]
 

@@ -35,7 +35,7 @@ def test_a_middleware_that_is_missing_ends_no_doctor(monkeypatch, capsys):
     said = capsys.readouterr().out
     assert 'not observed: RMW_IMPLEMENTATION is "rmw_connextdds"' in said
     assert f'\n1/{len(RULES)} check(s) failed\n\nFailed modules: environment\n' in said
-    assert 'see: docs/doctor.md#rmw_implementation\n' in said
+    assert 'see: docs/api/doctor.md#rmw_implementation\n' in said
     assert '\n   RMW MIDDLEWARE\nmiddleware name    : rmw_connextdds\n' in said
     assert 'PACKAGE VERSIONS' not in said
 

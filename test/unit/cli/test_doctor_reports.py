@@ -67,7 +67,7 @@ def test_a_finding_is_four_lines_and_names_its_section():
         'ERROR: ' + one_line('a\nb'),
         '  why: why',
         '  fix: fix',
-        '  see: docs/doctor.md#domain',
+        '  see: docs/api/doctor.md#domain',
     ]
 
 
@@ -82,7 +82,7 @@ def test_json_says_whether_it_passed():
             'what': 'what',
             'why': 'why',
             'fix': 'fix',
-            'link': 'docs/doctor.md#domain',
+            'link': 'docs/api/doctor.md#domain',
         }
     ]
 

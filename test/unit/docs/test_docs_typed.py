@@ -28,16 +28,10 @@ ELSEWHERE = {
         'test/system/testing/test_testing_failures.py'
     ),
     ('benchmarks.md', 'scripts/bench'): 'test/ros/benchmarks/test_parts.py',
-    ('benchmarks.md', 'source scripts/activate; python -m benchmarks.cycle'): (
-        'test/ros/benchmarks/test_parts.py'
-    ),
-    ('legged_robots.md', 'python examples/walk.py'): 'test/unit/simulation/test_walk.py',
-    ('legged_robots.md', 'ros2 launch amr_description simulation urdf:=examples/'): (
-        'test/unit/simulation/test_walk.py'
-    ),
-    ('legged_robots.md', 'PYTHONPATH=examples ros2 launch'): (
-        'test/unit/simulation/test_walk.py'  # the same controller, in one process
-    ),
+    **{
+        ('legged_robots.md', line): 'test/unit/simulation/test_walk.py'  # in one process
+        for line in ('python', 'ros2 launch', 'PYTHONPATH=examples ros2 launch')
+    },
     ('learning.md', 'python examples/learn_to_drive.py'): (
         'test/unit/base/test_gym.py'  # learns for three generations
     ),
@@ -45,31 +39,33 @@ ELSEWHERE = {
         'test/system/docs/test_docs_pip_without_ros.py'  # without the extra
     ),
     ('install.md', 'scripts/setup'): 'test/tooling/test_setup.py',
-    ('navigation.md', 'scripts/run navigation urdf:='): (
-        'test/unit/bringup/test_bringup_navigation.py'
-    ),
-    ('navigation.md', 'scripts/run navigation navigator:=false map:=none'): (
-        'test/unit/bringup/test_bringup_navigation.py'
-    ),
-    ('navigation.md', 'scripts/run navigation map:=none'): (
-        'test/unit/bringup/test_bringup_navigation.py'
-    ),
-    ('navigation.md', 'ros2 run amr_description check_navigation'): (
+    **{
+        (page, f'scripts/run navigation {words}'): 'test/unit/bringup/test_bringup_navigation.py'
+        for page, words in (
+            ('navigation.md', 'urdf:='),
+            ('nav2.md', 'navigator:=false map:=none'),
+            ('nav2.md', 'map:=none'),
+            ('your_own_planner.md', 'navigator_params:='),
+        )
+    },
+    ('nav2.md', 'ros2 run amr_description check_navigation'): (
         'test/system/docs/test_docs_check_navigation.py'  # types whatever is in that block
     ),
-    ('navigation.md', 'ros2 run amr_description scan_localizer'): (
+    ('localisation.md', 'ros2 run amr_description scan_localizer'): (
         'test/ros/navigation/test_scan_localizer.py'
     ),
-    ('navigation.md', 'ros2 run amr_description truth_localizer'): (
+    ('localisation.md', 'ros2 run amr_description truth_localizer'): (
         'test/system/navigation/test_navigation_stack.py'
     ),
-    ('navigation.md', 'ros2 run teleop_twist_keyboard'): 'test/system/nodes/test_teleop.py',
-    ('navigation.md', 'ros2 launch nav2_bringup'): 'on another machine, with Nav2',
-    ('navigation.md', 'ros2 topic pub -1 /goal_pose'): 'on another machine, with Nav2',
-    ('navigation.md', 'ros2 launch slam_toolbox'): 'on another machine, with slam_toolbox',
-    ('your_own_planner.md', 'scripts/run navigation navigator_params:='): (
-        'test/unit/bringup/test_bringup_navigation.py'
-    ),
+    ('localisation.md', 'ros2 run teleop_twist_keyboard'): 'test/system/nodes/test_teleop.py',
+    ('nav2.md', 'ros2 launch nav2_bringup'): 'on another machine, with Nav2',
+    ('nav2.md', 'ros2 topic pub -1 /goal_pose'): 'on another machine, with Nav2',
+    ('nav2.md', 'ros2 launch slam_toolbox'): 'on another machine, with slam_toolbox',
+    ('nav2.md', 'ros2 run nav2_map_server map_saver_cli'): 'on another machine, with slam_toolbox',
+    **{
+        ('robot_from_nothing.md', line): 'test/unit/docs/test_docs_from_nothing.py'
+        for line in ('check_urdf', 'ros2 launch', 'ros2 action send_goal')
+    },
     ('ros2_control.md', 'ros2 launch amr_description mock'): (
         'test/system/bringup/test_bringup_runs.py'
     ),
@@ -86,10 +82,10 @@ ELSEWHERE = {
     ('two_machines.md', 'ROS_DOMAIN_ID=1'): (
         'test/system/docs/test_docs_machines.py'  # puts the variable before the line
     ),
-    ('watch_a_running_stack.md', 'ros2 launch amr_description teleop'): (
+    ('stacks.md', 'ros2 launch amr_description teleop'): (
         'test/system/nodes/test_teleop_stack.py'
     ),
-    ('wheeled_controllers.md', 'ros2 run controller_manager spawner mecanum'): (
+    ('controllers.md', 'ros2 run controller_manager spawner mecanum'): (
         'test/system/control/test_spawner.py'
     ),
     ('write_your_own_hardware.md', 'ros2 launch amr_description serial port:=/dev/ttyUSB0'): (

@@ -1,6 +1,6 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/watch_a_running_stack.md: its commands exist, its events are those of the code."""
+"""docs/stacks.md: its commands exist, its events are those of the code."""
 
 import json
 import re
@@ -11,7 +11,7 @@ from amr_description.bringup import run_log
 from amr_description.bringup.run_commands import COMMANDS
 from amr_description.bringup.stacks import STACKS
 
-PAGE = Page('watch_a_running_stack.md')
+PAGE = Page('stacks.md')
 
 
 def events_of_page():

@@ -506,13 +506,6 @@ def test_rules_are_documented_functions():
     assert all(rule.__doc__ for rule in rules)
 
 
-def test_every_rule_stands_on_its_page_in_the_order_of_the_tables():
-    page = (ROOT / 'docs/check_urdf.md').read_text()
-    named = re.findall(r'^\| `(\w+)` \| \S', page, re.MULTILINE)
-    rules = (*checks.RULES, *checks.RULES_OF_THE_WHOLE)
-    assert named == [rule.__name__ for rule in rules]
-
-
 def wheeled(between, wheel=''):
     """A box with a wheel inside, ``between`` them a link that carries it."""
     box = '<collision><geometry><box size="1 1 1"/></geometry></collision>'

@@ -74,7 +74,7 @@ function Findings({ store }: { store: Store }) {
 function FindingRow({ severity, rule, what, why, fix }: FindingInfo) {
   return (
     <li class="unit">
-      <span class="unit-name" title={`docs/doctor.md#${rule}`}>
+      <span class="unit-name" title={`docs/api/doctor.md#${rule}`}>
         {what}
       </span>
       <Chip tone={severity}>{severity}</Chip>
