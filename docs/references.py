@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The references that are made of the code: rules by their docstrings, and tables of parameters.
+The references that are made of the code: rules by their docstrings, parameters, arguments.
 
 ``python docs/references.py`` writes them into ``docs/api/``, to be read without a site, too;
 ``test/unit/docs/test_docs_references.py`` holds that they are what the code says.
@@ -15,10 +15,15 @@ from pathlib import Path
 import re
 from typing import Any
 
+from amr_description.bringup.arguments import declared
+from amr_description.bringup.stacks import STACKS
 from amr_description.controllers import CONTROLLERS
 from amr_description.doctor import table
+from amr_description.launch_api.modules import UNDERSTOOD
 from amr_description.model import checks
+from amr_description.navigation.contract.rules import RULES as DEMANDS
 from amr_description.parameters import Spec, specs
+from amr_description.registry import resolve
 
 FOLDER = Path(__file__).resolve().parent / 'api'
 _MADE = '<!-- Made by docs/references.py. -->\n\n'
@@ -121,10 +126,66 @@ def _parameters() -> str:
     return '\n'.join(lines)
 
 
+def _check_navigation() -> str:
+    lines = ['# Demands of check_navigation', '']
+    lines += ['What Nav2 and slam_toolbox ask of a robot, by [check_navigation](../nav2.md):', '']
+    lines += ['| demand | what is asked | by |', '| --- | --- | --- |']
+    return '\n'.join(
+        [*lines, *(f'| `{each.name}` | {each.asked} | {each.source} |' for each in DEMANDS), '']
+    )
+
+
+def _stacks() -> str:
+    lines = [
+        '# Arguments of the stacks',
+        '',
+        '`ros2 launch amr_description STACK NAME:=VALUE …`:',
+        '',
+    ]
+    common = declared(resolve(STACKS['simulation']))
+    for name in sorted(STACKS, key=lambda each: (each != 'simulation', each)):
+        stack = resolve(STACKS[name])
+        taken = declared(stack)
+        others = [each for each in taken if each not in common] if name != 'simulation' else taken
+        lines += [f'## {name}', '', _paragraphs(stack)[0], '']
+        if len(others) < len(taken):
+            same = ', '.join(f'`{each.name}`' for each in taken if each in common)
+            has_all = len(taken) - len(others) == len(common)
+            lines += [f'As `simulation`: {"all of its arguments" if has_all else same}.', '']
+        if others:
+            lines += ['| argument | default | meaning |', '| --- | --- | --- |']
+        for each in others:
+            shown = each.default if each.default is not None else 'has to be given'
+            choices = f'; one of {", ".join(each.choices)}' if each.choices else ''
+            lines.append(f'| `{each.name}:=` | {shown} | {each.help}{choices} |')
+        lines.append('')
+    return '\n'.join(lines)
+
+
+def _launch() -> str:
+    rows = (
+        f'| `{module}` | {", ".join(f"`{name}`" for name in sorted(names))} |'
+        for module, names in UNDERSTOOD.items()
+        if names
+    )
+    lines = ['# Names of launch files', '', 'What [launch files](../launch_files.md) may use:', '']
+    return '\n'.join([*lines, '| module | names |', '| --- | --- |', *rows, ''])
+
+
 def pages() -> dict[str, str]:
     """Return the text of each page by the name of its file."""
-    made = {'doctor': _doctor, 'check_urdf': _check_urdf, 'parameters': _parameters}
-    return {f'{name}.md': _MADE + make().rstrip() + '\n' for name, make in made.items()}
+    made = {
+        'doctor': _doctor,
+        'check_navigation': _check_navigation,
+        'check_urdf': _check_urdf,
+        'launch': _launch,
+        'parameters': _parameters,
+        'stacks': _stacks,
+    }
+    return {
+        f'{name}.md': _MADE + re.sub('\n{3,}', '\n\n', make()).rstrip() + '\n'
+        for name, make in made.items()
+    }
 
 
 if __name__ == '__main__':

@@ -44,12 +44,6 @@ def test_what_is_typed_beside_the_stack(tmp_path):
         robot.interrupt()
 
 
-def test_the_table_has_each_demand_once():
-    rows = re.findall(r'^\| ((?:`[a-z_]+\.[a-z0-9_]+`,? ?)+) \|', DEMANDS, re.MULTILINE)
-    named = [name for row in rows for name in re.findall(r'`(.*?)`', row)]
-    assert sorted(named) == sorted(rule.name for rule in RULES)
-
-
 def test_every_option_is_in_the_table():
     options = {word for action in parser()._actions for word in action.option_strings}
     assert {*re.findall(r'`(--[a-z-]+)`', DEMANDS)} >= {

@@ -24,7 +24,7 @@ ROBOT = """\
 """
 CORNERS = [(0, 0, 0), (0.4, 0, 0), (0, 0.4, 0), (0, 0, 0.4)]
 FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-LINES = PAGE.text.split('Once built and sourced')[1]
+LINES = PAGE.text.split('lead there:')[1]
 OUTSIDE = 'check_urdf ~/outside.urdf'
 DRIVER = 'ros2 pkg create an_old_driver --dependencies rclcpp --node-name driver'
 

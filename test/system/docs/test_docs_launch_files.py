@@ -48,10 +48,10 @@ def test_its_test_passes_by_both_commands(tmp_path):
         assert '1 passed' in shell.run('python -m pytest test_talker.py')
 
 
-def test_the_names_in_its_table_are_understood():
-    table = PAGE.text.partition('## What is understood')[2].partition('Whatever else')[0]
+def test_the_names_on_the_page_are_understood():
+    text = PAGE.text.partition('## What is understood')[2].partition('Whatever else')[0]
     known = {name for names in UNDERSTOOD.values() for name in names}
     processes = UNDERSTOOD['launch.actions']['ExecuteProcess']
-    known |= {'autostart', *inspect.signature(processes.__init__).parameters, *UNDERSTOOD}
-    named = {re.sub(r'\(.*', '', each) for each in re.findall(r'`([^`]+)`', table)}
-    assert {'Node', 'IfCondition', 'ParameterFile'} <= named <= known
+    known |= {'autostart', *inspect.signature(processes.__init__).parameters}
+    named = {*re.findall(r'`([^`]+)`', text)}
+    assert {'Node', 'ComposableNode'} <= named <= known

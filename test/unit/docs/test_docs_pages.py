@@ -68,9 +68,12 @@ def test_the_front_page_is_one():
     assert 'What is not here' in text
     first_screen = text[: text.index('## ')]
     doors = (
-        '[Learn](#learn)',
-        '[My robot](#my-robot)',
+        '[learn](#learn)',
+        '[my robot](#my-robot)',
         '[CI](#ci)',
+        'a course',
+        'on Linux',
+        'without ROS',
         'docs/images/',
         'scripts/test ',
     )

@@ -11,12 +11,12 @@ from amr_description.bringup import run_log
 from amr_description.bringup.run_commands import COMMANDS
 from amr_description.bringup.stacks import STACKS
 
-PAGE = Page('stacks.md')
+PAGE, EVENTS = Page('stacks.md'), Page('api/events.md')
 
 
 def events_of_page():
     """Event → the words of its row that may be keys."""
-    rows = re.findall(r'^\| `(\w+)` \| (.*) \|$', PAGE.text, re.MULTILINE)
+    rows = re.findall(r'^\| `(\w+)` \| (.*) \|$', EVENTS.text, re.MULTILINE)
     keys_of = {event: set(re.findall(r'`(\w+)`', keys)) for event, keys in rows}
     del keys_of['event']  # the head of the table
     return keys_of
