@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulation without ROS, where there is none: in another environment and Python."""
 
+import json
 import os
+import re
 import subprocess
 
 from environment import engine
@@ -10,6 +12,7 @@ import pytest
 from support.doc_pages import Page
 
 PAGE = Page('simulation.md')
+COURSE = engine.ROOT / 'examples' / 'course' / 'student'
 LOOKS = (
     'import importlib.metadata as m\n'
     'print(sorted(each.metadata["Name"] for each in m.distributions()))'
@@ -54,6 +57,13 @@ def test_the_page_runs_as_it_stands(python, number, tmp_path):
     if not number:
         assert done.stdout.startswith('it is at 1.000 m, and takes itself to be at 1.000 m\n')
         assert done.stdout.count('joint_wheel_') == 4
+
+
+def test_the_notebook_of_the_course_runs_there(python):
+    notebook = json.loads((COURSE / 'first_hour.ipynb').read_text())
+    cells = [''.join(c['source']) for c in notebook['cells'] if c['cell_type'] == 'code']
+    said = run(python, '\n'.join(cells), check=True).stdout
+    assert re.search(r'it has driven 0\.\d+ m\n.*\n.*apart\n.*rays.*\nSUCCEEDED', said), said
 
 
 def test_a_part_of_the_tests_runs_there(monkeypatch):
