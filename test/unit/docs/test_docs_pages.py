@@ -145,3 +145,17 @@ def test_messages_are_those_of_the_code(name, head):
     assert len(messages) > 6
     parts = [part.strip() for each in messages for part in each.split('…')]
     assert [part for part in parts if part not in code] == []
+
+
+@pytest.mark.parametrize('name', [name for name in NAMES if '/' not in name])
+def test_a_sentence_is_one_thought(name):
+    """It has at most twenty words; a piece of code counts as one."""
+    text = re.sub(r'^```.*?^```$|^\|.*?$|^#.*?$', '', Page(name).text, flags=re.S | re.M)
+    text = re.sub(r'`[^`]*`', 'code', re.sub(r'\]\([^)]*\)', ']', text))
+    sentences = [
+        ' '.join(sentence.split())
+        for paragraph in re.split(r'\n\s*\n|\n(?=- |\d\. )', text)
+        for sentence in re.split(r'(?<=[.!?:])\**\s+(?=[A-Z\[*(]|code)', paragraph)
+    ]
+    long = [each for each in sentences if len(re.findall(r'\S*\w\S*', each)) > 20]
+    assert long == []
