@@ -46,7 +46,7 @@ _SIMULATOR = (
 _NAVIGATION = (
     'it runs on a machine with ROS 2 Jazzy beside the simulator, where '
     "'ros2 launch --discovery subnet amr_description navigation' has all that it asks for "
-    '(docs/navigation.md)'
+    '(docs/nav2.md)'
 )
 _NO_BRIDGE = (
     'no bridge is needed: the simulator publishes /clock, joint states, odometry and TF as '

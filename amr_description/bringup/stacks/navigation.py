@@ -250,7 +250,7 @@ Keys outrank it:"""
     remapping = ' \\\n        --ros-args -r /cmd_vel:=/cmd_vel_teleop' if has_mux else ''
     return f"""{first}
     ros2 run teleop_twist_keyboard teleop_twist_keyboard{remapping}
-Nav2 drives it from another machine (docs/navigation.md), with navigator:=false here, by
+Nav2 drives it from another machine (docs/nav2.md), with navigator:=false here, by
     ros2 launch nav2_bringup navigation_launch.py use_sim_time:=True \\
         params_file:=nav2_params.yaml
 and slam_toolbox maps, with map:=none localization:=none here, by
