@@ -64,7 +64,8 @@ def test_the_page_is_whole():
 def test_the_page_is_small_on_the_wire():
     texts = [*STATIC.glob('*.js'), *STATIC.glob('*.css')]
     sizes = {path.name: path.with_name(f'{path.name}.br').stat().st_size for path in texts}
-    assert sum(sizes.values()) <= 268_000, sizes
+    # 4 kB more than before what others draw, a ruler, and looks of topics.
+    assert sum(sizes.values()) <= 272_000, sizes
 
 
 def test_the_page_asks_nobody_else():

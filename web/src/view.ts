@@ -13,6 +13,7 @@ import type { Model, Part, SensorInfo } from './protocol';
 import type { State } from './state';
 import { acceptUrdf } from './drop';
 import { handsOf } from './hands';
+import { pointTools } from './pointing';
 import { recall, remember } from './remember';
 import type { Sample } from './samples';
 import { Places } from './scene/places';
@@ -144,7 +145,7 @@ export class View {
 
   private makeScene(): Scene | null {
     try {
-      return new Scene(this.canvas);
+      return new Scene(this.canvas, (info) => this.sensing.looks.of(info));
     } catch (error) {
       if (error instanceof NoWebGL) {
         this.whyBlind = error.message;
@@ -178,6 +179,7 @@ export class View {
     });
     store.watch(['frame'], () => scene.setFixedFrame(store.fixedFrame));
     store.watch(['reset'], () => scene.clearTrails());
+    this.sensing.looks.onChange = (topic) => scene.restyle(topic);
     this.sensing.onChange = () => scene.retainSensors(new Set(this.sensing.latest.keys()));
     store.watch(['robot', 'graph'], () => this.follow(scene));
     store.onWorld = (world) => scene.setWorld(world);
@@ -252,14 +254,20 @@ export class View {
     });
     limit();
     const clear = button('Clear trails', () => scene.clearTrails(), { kind: 'quiet' });
+    const pointing = pointTools(this.app, scene);
+    this.element.querySelector('.view-foot')?.append(pointing.words);
+    this.element.append(pointing.cross);
     const tools = h(
       'div',
       { class: 'view-tools', role: 'toolbar', 'aria-label': 'View' },
       button('Reset view', () => scene.resetView(), { kind: 'quiet' }),
+      button('Top view', () => scene.lookDown(), { kind: 'quiet', title: 'Look straight down' }),
       follow,
       h('span', { class: 'rule', 'aria-hidden': 'true' }),
       ...layers,
       clear,
+      h('span', { class: 'rule', 'aria-hidden': 'true' }),
+      ...pointing.buttons,
     );
     showOverflow(tools);
     // Where nothing moves, or no wheel is measured, these would do nothing.

@@ -7,11 +7,12 @@ import type { App, Panel } from '../app';
 import { MOST_POINTS, type Picture, type SensorInfo } from '../protocol';
 import type { Sample } from '../samples';
 import { PictureCanvas } from '../sensors/canvas';
+import { bounded, BOUNDS, COLOURINGS, settingsOf, type Colouring, type Look } from '../sensors/looks';
 import type { Sensing } from '../sensors/sensing';
 import { measured, timing } from '../sensors/words';
 import { isMap } from '../scene/placement';
 import type { State } from '../state';
-import { Chip, Switch } from '../ui';
+import { Button, Chip, Switch } from '../ui';
 import { panelOf, type PanelProps } from './component';
 
 export interface SensorsPanel extends Panel {
@@ -77,6 +78,7 @@ function Sensor(props: SensorProps) {
         onFlip={(wanted) => sensing.set(topic, wanted)}
       />
       <Words {...props} />
+      {on && settingsOf(info.kind).length > 0 && <Display info={info} sensing={sensing} />}
       {info.kind === 'picture' && on && <Camera {...props} />}
     </li>
   );
@@ -103,6 +105,58 @@ function Words({ info, sensing, state }: SensorProps) {
       ))}
       {info.kind === 'cloud' && <Whole info={info} sensing={sensing} sample={sample} />}
     </>
+  );
+}
+
+const NAMES: Readonly<Record<keyof Look, string>> = {
+  size: 'Size, px', colouring: 'Colour', opacity: 'Opacity', decay: 'Stays, s',
+};
+const COLOURING_NAMES: Readonly<Record<Colouring, string>> = {
+  own: 'its own, or intensity', height: 'by height', plain: 'one colour',
+};
+
+/** How it is drawn, to be changed. */
+function Display({ info, sensing: { looks } }: Pick<SensorProps, 'info' | 'sensing'>) {
+  const { topic, kind } = info;
+  const look = looks.of(info);
+  const colourings = COLOURINGS.filter((each) => kind !== 'scan' || each !== 'own');
+  return (
+    <details class="display">
+      <summary aria-label={`Display of ${topic}`}>{looks.isOwn(topic) ? 'Display (changed)' : 'Display'}</summary>
+      <div class="tools wrap">
+        {settingsOf(kind).map((name) => (
+          <label key={name} class="fine">
+            {NAMES[name]}{' '}
+            {name === 'colouring' ? (
+              <select
+                value={look.colouring}
+                onChange={({ currentTarget }) => looks.set(topic, { colouring: currentTarget.value as Colouring })}
+              >
+                {colourings.map((each) => (
+                  <option key={each} value={each}>
+                    {COLOURING_NAMES[each]}
+                  </option>
+                ))}
+              </select>
+            ) : (
+              <input
+                type="number"
+                min={BOUNDS[name][0]}
+                max={BOUNDS[name][1]}
+                step={name === 'opacity' ? 0.1 : 1}
+                value={look[name]}
+                onChange={({ currentTarget }) => {
+                  const value = bounded(name, currentTarget.valueAsNumber) ?? look[name];
+                  currentTarget.value = String(value);
+                  looks.set(topic, { [name]: value });
+                }}
+              />
+            )}
+          </label>
+        ))}
+        {looks.isOwn(topic) && <Button text="As at first" kind="quiet" onClick={() => looks.set(topic, null)} />}
+      </div>
+    </details>
   );
 }
 

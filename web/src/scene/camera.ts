@@ -119,6 +119,16 @@ export class CameraRig {
     this.controls.update();
   }
 
+  /** Look straight down at the same point, from as far as now; ahead is up. */
+  lookDown(): void {
+    const { distance } = this;
+    const ahead = new Vector3(-1e-3, 0, 1).applyAxisAngle(UP, this.isFollowing ? this.heading : 0);
+    this.isMoved = true;
+    this.camera.position.copy(this.target).addScaledVector(ahead, distance);
+    this.controls.update();
+    this.changed();
+  }
+
   stopFollowing(): void {
     this.isFollowing = false;
     this.controls.enablePan = true;

@@ -31,6 +31,7 @@ export class Grids {
   constructor(
     private readonly changed: () => void,
     private readonly failed: (text: string) => void,
+    private readonly opacityOf: (topic: string) => number = () => 1,
   ) {}
 
   take({ topic, robot }: SensorInfo, { head, bytes }: Sample<OccupancyGrid>): void {
@@ -50,6 +51,14 @@ export class Grids {
       },
       (error: unknown) => this.failed(`${topic}: ${error instanceof Error ? error.message : String(error)}`),
     );
+  }
+
+  /** A topic is drawn otherwise from now on. */
+  restyle(topic: string): void {
+    const mesh = this.shown.get(topic)?.mesh;
+    if (mesh) {
+      mesh.material.opacity = this.opacityOf(topic);
+    }
   }
 
   /** Draw no others than these. */
@@ -95,7 +104,7 @@ export class Grids {
     const geometry = new PlaneGeometry(width * resolution, height * resolution);
     geometry.translate((width * resolution) / 2, (height * resolution) / 2, LIFT[scheme]);
     const material = new MeshBasicMaterial({
-      map: texture, transparent: true, depthWrite: false, toneMapped: false,
+      map: texture, transparent: true, opacity: this.opacityOf(topic), depthWrite: false, toneMapped: false,
       polygonOffset: true, polygonOffsetUnits: scheme === 'map' ? -8 : -16, // before the ground
     });
     dispose(each.mesh);

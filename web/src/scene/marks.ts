@@ -32,6 +32,7 @@ import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeome
 import type { MarkBatch, Marks, MarkText, SensorInfo } from '../protocol';
 import { batchesOf, type Sample } from '../samples';
 import type { LocateFrame } from './grids';
+import { firstLook, type LookOf } from '../sensors/looks';
 import { loadMesh, managerOf } from './meshes';
 import { isMap } from './placement';
 import type { Locate } from './sensors';
@@ -59,6 +60,7 @@ interface Part {
 
 interface Shown {
   info: SensorInfo;
+  sample: Sample;
   group: Group;
   parts: Part[];
   /** Where frames were: what is there stays there, however old it becomes. */
@@ -81,6 +83,7 @@ export class MarkLayer {
   constructor(
     private readonly changed: () => void,
     private readonly failed: (text: string) => void,
+    private readonly lookOf: LookOf = ({ kind }) => firstLook(kind),
   ) {}
 
   /** Take over a sample; false: it is none of marks. */
@@ -91,14 +94,25 @@ export class MarkLayer {
     const settled = this.shown.get(info.topic)?.settled ?? new Map<string, Matrix4>();
     this.drop(info.topic);
     const group = new Group();
-    const parts = batchesOf(sample as Sample<Marks>).map(([batch, rows]) => this.partOf(batch, rows));
-    parts.push(...sample.head.texts.map(textOf));
+    const share = this.lookOf(info).opacity;
+    const parts = batchesOf(sample as Sample<Marks>).map(([batch, rows]) =>
+      this.partOf({ ...batch, opacity: share * batch.opacity }, rows),
+    );
+    parts.push(...sample.head.texts.map((text) => textOf(text, share)));
     group.add(...parts.map(({ object }) => object));
     this.object.add(group);
     const used = new Set(parts.map(keyOf));
     const kept = [...settled].filter(([key]) => used.has(key));
-    this.shown.set(info.topic, { info, group, parts, settled: new Map(kept) });
+    this.shown.set(info.topic, { info, sample, group, parts, settled: new Map(kept) });
     return true;
+  }
+
+  /** A topic is drawn otherwise from now on. */
+  restyle(topic: string): void {
+    const shown = this.shown.get(topic);
+    if (shown !== undefined) {
+      this.take(shown.info, shown.sample);
+    }
   }
 
   retain(topics: ReadonlySet<string>): void {
@@ -320,8 +334,8 @@ function forEachShape(rows: Float32Array, call: (index: number, matrix: Matrix4,
 }
 
 /** A text that faces the viewer; its middle is its place. */
-function textOf({ text, frame, stamp, position, height, colour: [r, g, b, a] }: MarkText): Part {
-  const sprite = new Sprite(new SpriteMaterial({ opacity: a, depthWrite: false }));
+function textOf({ text, frame, stamp, position, height, colour: [r, g, b, a] }: MarkText, share: number): Part {
+  const sprite = new Sprite(new SpriteMaterial({ opacity: share * a, depthWrite: false }));
   const canvas = document.createElement('canvas');
   const pen = canvas.getContext('2d');
   const font = `600 ${LETTERS}px system-ui, sans-serif`;

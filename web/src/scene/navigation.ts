@@ -43,8 +43,9 @@ export class NavigationLayer {
   private readonly goalArrows: Arrow[] = [];
   private readonly believed: Arrow[] = [];
 
-  constructor(changed: () => void, failed: (text: string) => void) {
-    this.grids = new Grids(changed, failed);
+  /** `opacityOf`: of a map, by its topic. */
+  constructor(changed: () => void, failed: (text: string) => void, opacityOf?: (topic: string) => number) {
+    this.grids = new Grids(changed, failed, opacityOf);
     this.object.add(this.grids.object, this.routes.object);
   }
 
@@ -64,6 +65,11 @@ export class NavigationLayer {
       return false;
     }
     return true;
+  }
+
+  /** A topic is drawn otherwise from now on. */
+  restyle(topic: string): void {
+    this.grids.restyle(topic);
   }
 
   retain(topics: ReadonlySet<string>): void {

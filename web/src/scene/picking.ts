@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Clicks, as distinct from drags: which link of which robot is under them. */
 import { Raycaster, Vector2 } from 'three';
-import type { Camera, Ray, Vector3 } from 'three';
+import type { Camera, Object3D, Ray, Vector3 } from 'three';
 import type { Placing } from './placing';
 import type { RobotView } from './robot';
 
@@ -63,6 +63,17 @@ export class Picking {
     this.camera.updateMatrixWorld(); // it may have been turned since the last frame
     this.caster.setFromCamera(new Vector2(x, y), this.camera);
     return this.caster.ray;
+  }
+
+  /** Where the nearest of some things, or a link, is under a point of the page; null: nowhere. */
+  surfaceAt(clientX: number, clientY: number, things: readonly Object3D[]): Vector3 | null {
+    const link = this.at(clientX, clientY);
+    const ray = this.rayAt(clientX, clientY);
+    this.caster.far = Infinity;
+    const points = this.caster.intersectObjects([...things], false).map(({ point }) => point);
+    const all = link === null ? points : [...points, link.point];
+    const far = (point: Vector3): number => point.distanceToSquared(ray.origin);
+    return all.sort((a, b) => far(a) - far(b))[0] ?? null;
   }
 
   /** The nearest link under a point of the page. */

@@ -4,6 +4,7 @@
 import { Matrix4, Scene as ThreeScene, Vector3 } from 'three';
 import type { Layout, Model, SensorInfo } from '../protocol';
 import type { Sample } from '../samples';
+import { firstLook, type LookOf } from '../sensors/looks';
 import type { State } from '../state';
 import { Axes, labelsOf, type PlacedFrame } from './axes';
 import { differ } from './changes';
@@ -48,7 +49,7 @@ export class Picture {
   readonly overlay = new ThreeScene();
   readonly world: WorldView;
   readonly surroundings: Surroundings;
-  readonly sensors = new SensorLayer();
+  readonly sensors: SensorLayer;
   readonly navigation: NavigationLayer;
   readonly marks: MarkLayer;
   options: SceneOptions = {
@@ -83,9 +84,11 @@ export class Picture {
     private readonly isSoftware: boolean,
     changed: () => void = () => {},
     failed: (text: string) => void = () => {},
+    lookOf: LookOf = ({ kind }) => firstLook(kind),
   ) {
-    this.navigation = new NavigationLayer(changed, failed);
-    this.marks = new MarkLayer(changed, failed);
+    this.sensors = new SensorLayer(lookOf);
+    this.navigation = new NavigationLayer(changed, failed, (topic) => lookOf({ topic, kind: 'map' }).opacity);
+    this.marks = new MarkLayer(changed, failed, lookOf);
     this.world = new WorldView(!isSoftware);
     this.surroundings = new Surroundings(this.scene, isSoftware);
     this.scene.add(this.world.object, this.sensors.points, this.navigation.object, this.marks.object);
@@ -196,6 +199,13 @@ export class Picture {
     if (!this.navigation.take(info, sample) && !this.marks.take(info, sample)) {
       this.sensors.take(info, sample);
     }
+  }
+
+  /** A topic is drawn otherwise from now on. */
+  restyle(topic: string): void {
+    this.sensors.restyle(topic);
+    this.navigation.restyle(topic);
+    this.marks.restyle(topic);
   }
 
   /** A robot's mesh has come. */

@@ -23,7 +23,7 @@ export class Placing {
   /** A place was clicked. */
   onChosen: () => void = () => {};
   private place: MarkedPlace | null = null;
-  private wanted: ((x: number, y: number) => void) | null = null;
+  private wanted: ((clientX: number, clientY: number) => void) | null = null;
 
   /** `groundAt`: the point of the ground, m in `world`, under a point of the page; null: none. */
   constructor(
@@ -44,20 +44,26 @@ export class Placing {
 
   /** Give every place that the pointer is over, until null is asked. */
   ask(wanted: ((x: number, y: number) => void) | null): void {
+    this.askAt(
+      wanted &&
+        ((clientX, clientY) => {
+          const point = this.groundAt(clientX, clientY);
+          if (point !== null) {
+            wanted(point[0], point[1]);
+          }
+        }),
+    );
+  }
+
+  /** … and every point of the page. */
+  askAt(wanted: ((clientX: number, clientY: number) => void) | null): void {
     this.wanted = wanted;
     this.canvas.classList.toggle('placing', wanted !== null);
   }
 
   /** A point of the page was pointed at, or clicked. */
   point(clientX: number, clientY: number): void {
-    const { wanted } = this;
-    if (wanted === null) {
-      return;
-    }
-    const point = this.groundAt(clientX, clientY);
-    if (point !== null) {
-      wanted(point[0], point[1]);
-    }
+    this.wanted?.(clientX, clientY);
   }
 
   /** Mark a place; null: none. */

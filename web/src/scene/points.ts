@@ -28,6 +28,16 @@ export class DynamicPoints {
     this.object.raycast = () => {};
   }
 
+  /** `size` in CSS pixels; opacity 0..1. */
+  setLook(size: number, opacity: number): void {
+    const { material } = this.object;
+    material.size = size;
+    material.opacity = opacity;
+    material.transparent = opacity < 1;
+    material.depthWrite = opacity === 1;
+    material.needsUpdate = true;
+  }
+
   /** Make room for so many points, x y z and r g b of each. */
   reserve(count: number): void {
     const { geometry } = this.object;

@@ -11,6 +11,7 @@ import type { Place, Point } from '../navigation/gesture';
 import type { Tool } from '../navigation/tool';
 import type { GoalStatus, Layout, Model, SensorInfo, Vector, World } from '../protocol';
 import type { Sample } from '../samples';
+import type { LookOf } from '../sensors/looks';
 import type { Footprint } from '../spawn/free_place';
 import type { State } from '../state';
 import { CameraRig } from './camera';
@@ -24,6 +25,7 @@ import { Placing, type MarkedPlace } from './placing';
 import { Picture, type SceneOptions } from './picture';
 import type { RobotView } from './robot';
 import type { SceneRobot } from './robot_marks';
+import { Ruler } from './ruler';
 import type { SensorNumbers } from './sensors';
 import { PALETTES, type Theme } from './theme';
 import type { Unseen } from './unseen';
@@ -47,16 +49,17 @@ export class Scene {
   private readonly painter: Painter;
   private readonly rig: CameraRig;
   private readonly placing: Placing;
+  private readonly ruler = new Ruler();
   private palette = PALETTES.light;
   private followed: string | null = null;
   private expected: string | null = null; // a robot that is to be in view as soon as it is there
   private isStale = true; // something other than the camera changed
   private framed: string | null = null; // the fixed frame in which the camera was pointed
 
-  /** Throws {@link NoWebGL} where there is no WebGL 2. */
-  constructor(readonly canvas: HTMLCanvasElement) {
+  /** `lookOf`: how topics are drawn. Throws {@link NoWebGL} where there is no WebGL 2. */
+  constructor(readonly canvas: HTMLCanvasElement, lookOf?: LookOf) {
     const isSoftware = isSoftwareDrawn();
-    this.picture = new Picture(isSoftware, () => this.invalidate(), (text) => this.onProblem(text));
+    this.picture = new Picture(isSoftware, () => this.invalidate(), (text) => this.onProblem(text), lookOf);
     this.labels = new Labels(canvas);
     this.painter = new Painter(canvas, isSoftware, this.step, this.onResize);
     this.rig = new CameraRig(canvas, this.painter.dirty, () => this.resetView());
@@ -67,7 +70,7 @@ export class Scene {
     this.placing.show(null);
     this.picking = new Picking(canvas, this.rig.camera, views, this.onPick, this.placing);
     this.grip = new Grip(canvas, this.rig.camera, this.grasp(), () => this.hands);
-    this.picture.overlay.add(this.grip.object);
+    this.picture.overlay.add(this.grip.object, this.ruler.object);
     this.setTheme('light');
     this.resize();
   }
@@ -127,6 +130,12 @@ export class Scene {
     this.invalidate();
   }
 
+  /** A topic is drawn otherwise from now on. */
+  restyle(topic: string): void {
+    this.picture.restyle(topic);
+    this.invalidate();
+  }
+
   /** Draw no other sensors than these topics. */
   retainSensors(topics: ReadonlySet<string>): void {
     this.picture.sensors.retain(topics);
@@ -173,6 +182,9 @@ export class Scene {
 
   /** Let the camera go with a robot; null: stay where it is. */
   follow(robot: string | null): void {
+    if (robot === this.followed) {
+      return; // whoever has turned the view would find it turned back
+    }
     this.followed = robot;
     this.rig.stopFollowing();
     if (robot !== null) {
@@ -206,6 +218,44 @@ export class Scene {
   askForPlace(pointed: ((x: number, y: number) => void) | null, chosen: () => void = () => {}): void {
     this.placing.ask(pointed);
     this.placing.onChosen = chosen;
+  }
+
+  /** Have a point of the page pointed at, as {@link askForPlace} does a place. */
+  askForPoint(pointed: ((clientX: number, clientY: number) => void) | null, chosen: () => void): void {
+    this.placing.askAt(pointed);
+    this.placing.onChosen = chosen;
+  }
+
+  /** Where the nearest thing, or the ground, is in the scene under a point of the page; null: nowhere. */
+  surfaceAt(clientX: number, clientY: number): Vector3 | null {
+    const { world, worldPose } = this.picture;
+    const thing = this.picking.surfaceAt(clientX, clientY, world.object.visible ? world.object.children : []);
+    const plane = new Plane(new Vector3(0, 0, 1)).applyMatrix4(worldPose ?? new Matrix4());
+    const ray = this.picking.rayAt(clientX, clientY);
+    const ground = ray.intersectPlane(plane, new Vector3());
+    const far = (point: Vector3 | null): number => point?.distanceToSquared(ray.origin) ?? Infinity;
+    return far(thing) < far(ground) ? thing : ground;
+  }
+
+  /** Draw the way between two points of the scene, with words at its middle; null: none. */
+  measure(from: Vector3 | null, to: Vector3 | null, text: string): void {
+    this.ruler.set(from, to, text);
+    this.painter.dirty();
+  }
+
+  /** The frame that stands still. */
+  get fixedFrame(): string {
+    return this.picture.fixedFrame;
+  }
+
+  /** Where a frame of TF is in the scene; null: not known. */
+  poseOfFrame(frame: string): Matrix4 | null {
+    return this.picture.locateFrame(frame, '');
+  }
+
+  /** Look straight down, from as far as now. */
+  lookDown(): void {
+    this.rig.lookDown();
   }
 
   /** Bring the robots into view: the one that is followed, or all that are near one another. */
@@ -243,6 +293,7 @@ export class Scene {
     this.palette = PALETTES[theme];
     this.picture.setPalette(this.palette);
     this.grip.setPalette(this.palette);
+    this.ruler.setPalette(this.palette);
     this.invalidate();
   }
 
@@ -364,7 +415,7 @@ export class Scene {
     picture.reveal(rig.camera.position, this.followed);
     this.grip.draw();
     this.painter.paint(picture.scene, picture.overlay, rig.camera);
-    this.labels.draw(picture.labels(), rig.camera, this.palette);
+    this.labels.draw([...picture.labels(), ...this.ruler.labels()], rig.camera, this.palette);
     return goesOn;
   };
 

@@ -4,17 +4,18 @@
 import { Color, Group, Matrix4, Vector3 } from 'three';
 import { PLACE_FLOATS, type Contacts, type Distance, type Scan, type SensorInfo } from '../protocol';
 import { pointsOf, type Sample } from '../samples';
+import { firstLook, type LookOf } from '../sensors/looks';
 import { vectorAt } from '../state';
 import { rainbow } from './gradient';
 import { DynamicPoints } from './points';
 import { Segments } from './segments';
 import type { Palette } from './theme';
 
-const SIZE = { scan: 4, cloud: 2 }; // CSS pixels
 const ARC = 12; // pieces
 const MOST_DRAWN = 20; // m, of a distance that is infinite or absurd
 const CROSS = 0.015; // m
 const NORMAL = 0.15; // m
+const MOST_OLDER = 100; // samples of a topic that stay for a while
 const OLDEST_CONTACT = 0.5; // s
 
 /** Where a frame was at a time; `isSettled`: no later state knows it better. */
@@ -29,6 +30,13 @@ interface Shown {
   isSettled: boolean;
   points: DynamicPoints | null;
   count: number;
+  /** Of samples before, that stay for a while: drawn, in their places. */
+  older: Older[];
+}
+
+interface Older {
+  stamp: number;
+  points: DynamicPoints;
 }
 
 /** What is drawn of a sensor, for tests: how many points, and their extent in the fixed frame. */
@@ -48,7 +56,8 @@ export class SensorLayer {
   private readonly distanceColour = new Color();
   private readonly contactColour = new Color();
 
-  constructor() {
+  /** `lookOf`: how a topic is drawn. */
+  constructor(private readonly lookOf: LookOf = ({ kind }) => firstLook(kind)) {
     this.marks.add(this.lines.object);
   }
 
@@ -66,28 +75,63 @@ export class SensorLayer {
   take(info: SensorInfo, sample: Sample): void {
     const before = this.shown.get(info.topic);
     if (before?.info.kind === info.kind) {
+      this.keepOlder(before, sample);
       Object.assign(before, { info, sample, isSettled: false });
       return;
     }
-    before?.points?.dispose();
+    this.dispose(before);
     const points = this.newPoints(info);
-    this.shown.set(info.topic, { info, sample, pose: null, isSettled: false, points, count: 0 });
+    this.shown.set(info.topic, { info, sample, pose: null, isSettled: false, points, count: 0, older: [] });
   }
 
   /** Draw no others than these. */
   retain(topics: ReadonlySet<string>): void {
-    for (const [topic, { points }] of [...this.shown]) {
+    for (const [topic, each] of [...this.shown]) {
       if (!topics.has(topic)) {
-        points?.dispose();
+        this.dispose(each);
         this.shown.delete(topic);
       }
     }
+  }
+
+  /** A topic is drawn otherwise from now on. */
+  restyle(topic: string): void {
+    const each = this.shown.get(topic);
+    if (each !== undefined) {
+      each.isSettled = false;
+      const { size, opacity } = this.lookOf(each.info);
+      [each, ...each.older].forEach(({ points }) => points?.setLook(size, opacity));
+      this.forgetOlder(each, each.sample.head.origin.stamp);
+    }
+  }
+
+  /** Have what is drawn stay beside the next sample, where the topic is to be drawn so. */
+  private keepOlder(each: Shown, { head: { origin } }: Sample): void {
+    const { decay } = this.lookOf(each.info);
+    if (decay > 0 && each.points !== null && each.pose !== null && each.older.length < MOST_OLDER) {
+      each.older.push({ stamp: each.sample.head.origin.stamp, points: each.points });
+      each.points = this.newPoints(each.info);
+    }
+    this.forgetOlder(each, origin.stamp);
+  }
+
+  private forgetOlder(each: Shown, now: number): void {
+    const { decay } = this.lookOf(each.info);
+    const isOver = ({ stamp }: Older): boolean => decay === 0 || now - stamp > decay || now < stamp;
+    each.older.filter(isOver).forEach(({ points }) => points.dispose());
+    each.older = each.older.filter((one) => !isOver(one));
+  }
+
+  private dispose(each: Shown | undefined): void {
+    each?.points?.dispose();
+    each?.older.forEach(({ points }) => points.dispose());
   }
 
   /** Find the places anew: another frame stands still. */
   unsettle(): void {
     this.shown.forEach((each) => {
       each.isSettled = false;
+      each.older.splice(0).forEach(({ points }) => points.dispose());
     });
   }
 
@@ -127,11 +171,13 @@ export class SensorLayer {
     return Object.fromEntries(pairs);
   }
 
-  private newPoints({ kind }: SensorInfo): DynamicPoints | null {
-    if (kind !== 'scan' && kind !== 'cloud') {
+  private newPoints(info: SensorInfo): DynamicPoints | null {
+    if (info.kind !== 'scan' && info.kind !== 'cloud') {
       return null;
     }
-    const points = new DynamicPoints(SIZE[kind]);
+    const { size, opacity } = this.lookOf(info);
+    const points = new DynamicPoints(size);
+    points.setLook(size, opacity);
     this.points.add(points.object);
     return points;
   }
@@ -147,11 +193,15 @@ export class SensorLayer {
     }
     points.object.matrix.copy(pose);
     points.object.matrixWorldNeedsUpdate = true;
+    const { colouring } = this.lookOf(each.info);
+    const colour = this.colours[index % this.colours.length] ?? new Color();
     if (sample.head.type === 'scan') {
-      const colour = this.colours[index % this.colours.length] ?? new Color();
       each.count = fillScan(points, sample as Sample<Scan>, colour);
+      if (colouring !== 'plain') {
+        paint(points.colours, heights(points.positions.subarray(0, 3 * each.count), pose));
+      }
     } else if (sample.head.type === 'cloud') {
-      each.count = fillCloud(points, sample, pose);
+      each.count = fillCloud(points, sample, pose, colouring === 'plain' ? colour : colouring);
     } else {
       each.count = 0;
     }
@@ -222,7 +272,7 @@ export function fillScan(
   const high = head.range_max ?? Infinity;
   points.reserve(floats.length);
   const { positions, colours } = points;
-  const bytes = [colour.r, colour.g, colour.b].map((part) => Math.round(255 * part));
+  const bytes = bytesOf(colour);
   let count = 0;
   floats.forEach((range, ray) => {
     if (range >= low && range <= high && range < Infinity) {
@@ -237,17 +287,26 @@ export function fillScan(
   return count;
 }
 
-/** Put a cloud in, by its own colours, its intensities, or its heights in the fixed frame. */
-function fillCloud(points: DynamicPoints, sample: Sample, pose: Matrix4): number {
+/** Put a cloud in, by its own colours, else its intensities, by its heights in the fixed frame, or in one. */
+function fillCloud(points: DynamicPoints, sample: Sample, pose: Matrix4, by: 'own' | 'height' | Color): number {
   const { count, positions, rgb, intensities } = pointsOf(sample);
   points.reserve(count);
   points.positions.set(positions);
-  if (rgb !== null) {
+  if (by instanceof Color) {
+    const bytes = bytesOf(by);
+    for (let at = 0; at < count; at += 1) {
+      points.colours.set(bytes, 3 * at);
+    }
+  } else if (rgb !== null && by === 'own') {
     points.colours.set(linear(rgb));
   } else {
-    paint(points.colours, intensities ?? heights(positions, pose));
+    paint(points.colours, (by === 'own' ? intensities : null) ?? heights(positions, pose));
   }
   return count;
+}
+
+function bytesOf({ r, g, b }: Color): number[] {
+  return [r, g, b].map((part) => Math.round(255 * part));
 }
 
 function heights(positions: Float32Array, { elements: m }: Matrix4): Float32Array {

@@ -6,6 +6,7 @@ import type { SensorInfo } from '../protocol';
 import { recall, remember } from '../remember';
 import type { Sample } from '../samples';
 import type { Store } from '../store';
+import { Looks } from './looks';
 
 /**
  * Shown until the user says otherwise: a scan is small, and what a mobile robot is about; of maps and
@@ -18,6 +19,8 @@ function isShownAtFirst({ topic, kind }: SensorInfo): boolean {
 export class Sensing {
   /** The latest samples, by topic, of those that are on. */
   readonly latest = new Map<string, Sample>();
+  /** How they are drawn. */
+  readonly looks = new Looks();
   private readonly switches = signal(0); // how often one was flipped
   /** What is on, or there is, has changed. */
   onChange: () => void = () => {};
