@@ -19,6 +19,7 @@ from functools import partial
 import math
 import os
 from pathlib import Path
+import re
 import shlex
 import shutil
 import sys
@@ -87,8 +88,10 @@ from amr_description.launch_api.substitutions import (
 )
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 
-_STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner', 'ros2')
+_STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner')
 """What ends by itself soon, and is waited for."""
+_STEP_OF_ROS2 = re.compile(r'\bros2 +(action|control|lifecycle|param|service) ')
+"""So do these commands; ``ros2 bag record`` does not."""
 _STEP: Mapping[str, Any] = {'required': False, 'on_exit': 'continue', 'timeout': math.inf}
 _READS_KEYS = 'teleop_twist_keyboard'
 _SOON = 10.0
@@ -509,7 +512,8 @@ def _is_shutdown(on_exit: object) -> bool:
 
 
 def _is_step(node: NodeRef) -> bool:
-    return node.executable in _STEPS
+    command = ' '.join((isinstance(node, StackNode) and node.command) or ())
+    return node.executable in _STEPS or _STEP_OF_ROS2.search(command) is not None
 
 
 def _starts_soon(node: StackNode) -> bool:

@@ -328,6 +328,25 @@ def test_ready_is_what_starts_soon(launch):
     assert scheduler.ready
 
 
+@pytest.mark.parametrize(
+    ('words', 'shell', 'ends'),
+    [
+        ('ros2 control load_controller a', False, True),
+        ('ros2 service call /a std_srvs/srv/Empty', True, True),
+        ('ros2 bag record /chatter', False, False),
+        ('ros2 topic echo /chatter', True, False),
+    ],
+)
+def test_only_what_ends_soon_is_waited_for(launch, words, shell, ends):
+    cmd = [words] if shell else words.split()
+    (command,) = (stack := launch(f'ExecuteProcess(cmd={cmd}, shell={shell}),')).nodes
+    scheduler = Scheduler(stack)
+    scheduler.on_start(command)
+    assert scheduler.ready is not ends
+    scheduler.on_exit(command, 0)
+    assert scheduler.ready
+
+
 def test_a_file_that_starts_no_process_says_its_lines_and_is_over(launch):
     stack = launch("LogInfo(msg='only a line'), LogInfo(msg=PathSubstitution('/a') / 'b' / 'c'),")
     assert stack.nodes == []
