@@ -146,14 +146,13 @@ def _parameter_value(element: Element) -> Any:
 
 
 def _node(element: Element) -> Node:
-    files: list[Any] = []
-    table: dict[str, Any] = {}
+    parameters: list[Any] = []  # in their order: of two values the later one counts
     for each in element.below('param'):
         file = each.optional('from')
         if file is not None:
-            files.append(ParameterFile(file, allow_substs=each.flag('allow_substs', False)))
+            parameters.append(ParameterFile(file, allow_substs=each.flag('allow_substs', False)))
         else:
-            table[each.need('name')] = _parameter_value(each)
+            parameters.append({each.need('name'): _parameter_value(each)})
     remaps = element.below('remap')
     element.get('exec_name')
     return Node(
@@ -163,7 +162,7 @@ def _node(element: Element) -> Node:
         namespace=element.optional('namespace'),
         arguments=_words(element.optional('args') or []),
         ros_arguments=_words(element.optional('ros_args') or []),
-        parameters=[*files, *([table] if table else [])],
+        parameters=parameters,
         remappings=[(each.needed('from'), each.needed('to')) for each in remaps],
         **_process(element),
     )

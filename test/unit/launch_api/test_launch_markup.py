@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Launch files in XML and YAML: the same stack as in Python."""
 
+from pathlib import Path
+
 from fixtures.launch_files.packages import (
     commands,
     first_in_the_index,
@@ -72,6 +74,18 @@ def folder(tmp_path):
     (tmp_path / 'p.yaml').write_text('/**: {ros__parameters: {who: $(var who)}}\n')
     with first_in_the_index(tmp_path):
         yield tmp_path
+
+
+@pytest.mark.parametrize('file_first', [True, False])
+def test_of_two_values_of_a_parameter_the_later_one_counts(folder, file_first):
+    ways = ['<param from="$(dirname)/plain.yaml"/>', '<param name="rate" value="1"/>']
+    (folder / 'plain.yaml').write_text('/**: {ros__parameters: {rate: 2}}\n')
+    file = folder / 'order.launch.xml'
+    inner = ''.join(ways if file_first else reversed(ways))
+    file.write_text(f'<launch><node pkg="toys" exec="a">{inner}</node></launch>')
+    (spec,) = process_specs(stack_of(file), folder)
+    names = [Path(word).name for word in spec.command if word.endswith('.yaml')]
+    assert names.index('plain.yaml') == (0 if file_first else 1)
 
 
 def test_what_is_started(folder):
