@@ -80,7 +80,15 @@ def addresses(machine):
     return {line.split()[4].rpartition(':')[0] for line in lines.splitlines()}
 
 
-STACKS = ['display', 'simulation', 'navigation', 'mock', 'serial', 'fleet']
+LONG = pytest.mark.long
+STACKS = [
+    'display',
+    pytest.param('simulation', marks=LONG),  # its programs are among those of the next
+    'navigation',
+    pytest.param('mock', marks=LONG),  # likewise
+    'serial',
+    'fleet',
+]
 
 
 @pytest.mark.parametrize('stack', STACKS)

@@ -26,7 +26,8 @@ NAMES = ['nope', '', 'a b', 'x' * 10_000]
 UNKNOWN = [Parameter(name='use_sim_time', value=ParameterValue(type=kind)) for kind in (77, 255)]
 
 
-@pytest.mark.parametrize('stack', ['mock', 'navigation'])
+# What all nodes have from one place is asked of those of a small stack each time.
+@pytest.mark.parametrize('stack', ['mock', pytest.param('navigation', marks=pytest.mark.long)])
 def test_every_node_answers(tmp_path, stack):
     prefix = os.environ['AMENT_PREFIX_PATH']
     with Bringup(tmp_path, stack, AMENT_PREFIX_PATH=prefix) as up:

@@ -179,9 +179,8 @@ def fuzz(tmp_path, stack_name, seconds, seed):
         assert 'process has died' not in stack.output
 
 
-@pytest.mark.parametrize('stack', ['simulation', 'navigation'])
-def test_any_content_leaves_a_stack_standing(tmp_path, stack):
-    fuzz(tmp_path, stack, SHORT, 40)
+def test_any_content_leaves_a_stack_standing(tmp_path):
+    fuzz(tmp_path, 'navigation', SHORT, 40)  # which has all programs of the stack simulation
 
 
 @pytest.mark.long

@@ -18,7 +18,7 @@ from support.paths import ROOT
 from support.running_programs import Program
 from support.waiting import until
 
-from amr_description.trials import runner
+from amr_description.trials import command as trials_command, runner
 from amr_description.trials.function import TrialFunction
 from amr_description.trials.one_run import Ending
 from amr_description.trials.report import TrialsReport
@@ -116,17 +116,40 @@ def test_the_printed_line_fails_in_the_same_step_with_the_same_bits(tmp_path):
         assert failed.message.split(':')[0] in (tmp_path / 'out' / name).read_text()
 
 
-def test_shards_are_judged_together(tmp_path):
+def test_shards_are_judged_together(tmp_path, capsys):
     whole = command('drives:slippery', '--seeds', 3, '--at-least', 0.0, '-o', tmp_path / 'whole')
     for number in (1, 2):
         command(
             'drives:slippery', '--seeds', 3, '--shard', f'{number}/2', '-o', tmp_path / f'{number}'
         )
-    files = [tmp_path / f'{number}' / 'report.json' for number in (1, 2)]
-    merged = command('--merge', *files, '--at-least', 0.0)
-    assert (whole.returncode, merged.returncode) == (0, 0)
-    assert re.findall('digest .*', merged.stdout) == re.findall('digest .*', whole.stdout)
-    assert command('--merge', *files, '--at-least', 0.99).returncode == 1
+    files = [str(tmp_path / f'{number}' / 'report.json') for number in (1, 2)]
+    assert trials_command.main(['--merge', *files, '--at-least', '0.0']) == 0
+    merged = capsys.readouterr().out
+    assert whole.returncode == 0
+    assert re.findall('digest .*', merged) == re.findall('digest .*', whole.stdout) != []
+    assert trials_command.main(['--merge', *files, '--at-least', '0.99']) == 1
+
+
+@pytest.mark.parametrize(
+    ('words', 'said'),
+    [
+        (['drives:nothing'], 'there is no function of that name'),
+        ([], 'name a trial, as my_module:drive'),
+        (['drives:quick', '--shard', '9/8'], "'9/8' is no shard"),
+        (['drives:quick', '--only', 'x'], '--only x names no run'),
+        (['--merge', 'none.json'], 'none.json cannot be read: No such file'),
+        (['drives:quick', '--dask', 'tcp://127.0.0.1:1'], '--dask needs Dask'),
+    ],
+)
+def test_what_cannot_be_run_is_one_line_and_two(words, said, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, 'distributed', None)  # no Dask
+    monkeypatch.chdir(FILE.parent)
+    try:
+        code = trials_command.main(words)
+    except SystemExit as end:
+        code = end.code
+    assert code == 2
+    assert said in capsys.readouterr().err.splitlines()[-1]
 
 
 def test_the_exit_code_says_what_happened():
@@ -134,19 +157,6 @@ def test_the_exit_code_says_what_happened():
     assert 'died 0.7 (how=kill): its process ended by SIGKILL' in done.stdout
     assert done.returncode == 3
     assert command('drives:quick', '--seeds', 3).returncode == 0
-    for words, said in {
-        ('drives:nothing',): 'there is no function of that name',
-        (): 'name a trial, as my_module:drive',
-        ('drives:quick', '--shard', '9/8'): "'9/8' is no shard",
-        ('drives:quick', '--only', 'x'): '--only x names no run',
-        ('--merge', 'none.json'): 'none.json cannot be read: No such file',
-        ('drives:quick', '--dask', 'tcp://127.0.0.1:1'): '--dask needs Dask',
-    }.items():
-        if '--dask' in words and 'distributed' in sys.modules:
-            continue
-        done = command(*words)
-        assert done.returncode == 2
-        assert said in done.stderr.splitlines()[-1]
 
 
 @pytest.mark.parametrize(
