@@ -23,8 +23,8 @@ export class Header {
   private readonly name = h('span', { class: 'robot-name' });
   private readonly transport: HTMLElement;
   private readonly play: HTMLButtonElement;
-  private readonly time = h('span', { class: 'time', title: 'Time' }, UNKNOWN);
-  private readonly real = h('span', { class: 'factor', title: 'Real-time factor' }, UNKNOWN);
+  private readonly time = h('span', { class: 'time', title: 'Time of the simulation since its start or reset, min:s' }, UNKNOWN);
+  private readonly real = h('span', { class: 'factor', title: 'Real-time factor: seconds of the simulation in one of yours' }, UNKNOWN);
   private readonly domain = h('span', { class: 'fine domain' });
 
   constructor(

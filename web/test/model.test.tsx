@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Panel } from '../src/app';
 import { findingsToLookAt, modelPanel } from '../src/panels/model';
-import type { Finding, Model } from '../src/protocol';
-import { connectedApp, drawn, find, graphOf, robotInfo, texts, type TestApp } from './page';
+import type { Finding, Layout, Model } from '../src/protocol';
+import { connectedApp, drawn, find, graphOf, robotInfo, texts, unknownState, type TestApp } from './page';
 
 const URDF = `<robot name="amr">
   <link name="base"><inertial><mass value="1.5"/></inertial></link>
@@ -96,4 +96,18 @@ test('the line of a finding is shown in the URDF', async () => {
   assert.equal(detailsOf(panel).open, true);
   assert.equal(String(document.getSelection()), URDF.split('\n')[2]);
   panel.element.remove();
+});
+
+test('where the robot is stands there, as far as it is known', async () => {
+  const app = described();
+  const panel = modelPanel(app);
+  const layout: Layout = { type: 'layout', id: 1, frames: [], robots: [{ id: '/', joints: [], wheels: [] }] };
+  const state = unknownState(layout);
+  panel.pulse?.(state);
+  await drawn();
+  assert.equal(fact(panel, 'By truth'), undefined);
+  state.robots[0]!.truth.set([1, -2, 0, 0, 0, Math.SQRT1_2, Math.SQRT1_2]);
+  panel.pulse?.({ ...state });
+  await drawn();
+  assert.equal(fact(panel, 'By truth'), 'x 1.00 m, y \u22122.00 m, 90\u00b0');
 });

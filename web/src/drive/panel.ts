@@ -13,7 +13,7 @@ import { keycaps } from './keycaps';
 import type { Limits, Velocity } from './mixing';
 import type { Pilot } from './pilot';
 import { stopElement } from './stop';
-import { whoDrives } from './words';
+import { MEANINGS, whoDrives } from './words';
 
 const WORDS: Record<Source, string> = { command: 'Command', odometry: 'Odometry', truth: 'Truth' };
 const LIMITS = {
@@ -172,7 +172,7 @@ export class DrivePanel implements Panel {
       };
       this.cells.set(source, cells);
       const age = h('small', { class: 'age' });
-      const name = h('th', { scope: 'row' }, h('i', { class: `swatch ${source}` }), WORDS[source], age);
+      const name = h('th', { scope: 'row', title: MEANINGS[source] }, h('i', { class: `swatch ${source}` }), WORDS[source], age);
       const row = h('tr', {}, name, cells.linear, cells.sideways, cells.angular);
       this.rows.set(source, { row, age });
       return row;

@@ -103,3 +103,10 @@ function nameOf(store: Store, id: string): string {
   const robot = store.graph?.robots.find((each) => each.id === id);
   return robot === undefined ? id : robotName(robot);
 }
+
+/** What the three velocities are. */
+export const MEANINGS = {
+  command: 'What the robot was told last; nothing is told while this is a dash',
+  odometry: 'As the robot reckons by its wheels: it drifts where they slip',
+  truth: 'As it really moves, which only a simulator knows',
+} as const;

@@ -5,8 +5,10 @@ import { useSignal, useSignalEffect, type Signal } from '@preact/signals';
 import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 import type { App, Panel } from '../app';
 import { commands } from '../commands';
+import { fixed } from '../format';
 import type { Finding, Model, RobotInfo } from '../protocol';
 import { saveFile } from '../save';
+import { isKnownPose } from '../state';
 import type { Store } from '../store';
 import { massOf } from '../scene/urdf';
 import { Button, Facts, Section } from '../ui';
@@ -25,7 +27,7 @@ export function findingsToLookAt({ model }: Store): { count: number; tone: 'warn
   return { count, tone: levels.includes('error') ? 'error' : 'warning' };
 }
 
-function ModelPanel({ app }: PanelProps) {
+function ModelPanel({ app, state }: PanelProps) {
   const { model, robot, graph, recording } = app.store;
   const open = useSignal(false); // whichever robot: who reads one URDF wants to read the other
   const shown = useSignal<Shown | null>(null);
@@ -37,6 +39,7 @@ function ModelPanel({ app }: PanelProps) {
       <Section title="Description">
         <Summary model={model} robot={robot} />
       </Section>
+      <Where robot={robot} state={state} />
       <Section title="Findings of check_urdf">
         <Findings list={model.findings} show={(line) => (shown.value = { line })} />
       </Section>
@@ -47,6 +50,24 @@ function ModelPanel({ app }: PanelProps) {
         <Source model={model} name={robot.name} open={open} shown={shown} />
       </Section>
     </>
+  );
+}
+
+/** Where it is: as it truly is, where a simulator knows, and as its odometry has it. */
+function Where({ robot, state }: { robot: RobotInfo } & Pick<PanelProps, 'state'>) {
+  const motions = state.value?.robots.find(({ id }) => id === robot.id);
+  const pairs: [string, string][] = [];
+  for (const [name, motion] of [['By truth', motions?.truth], ['By odometry', motions?.odometry]] as const) {
+    if (motion !== undefined && isKnownPose(motion)) {
+      const [x = 0, y = 0, , qx = 0, qy = 0, qz = 0, qw = 1] = motion;
+      const yaw = Math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
+      pairs.push([name, `x ${fixed(x, 2)} m, y ${fixed(y, 2)} m, ${fixed((180 / Math.PI) * yaw, 0)}°`]);
+    }
+  }
+  return pairs.length === 0 ? null : (
+    <Section title="Where it is">
+      <Facts pairs={pairs} />
+    </Section>
   );
 }
 
