@@ -51,7 +51,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_959,
+    'code lines of helpers in test files': 27_979,
 }
 
 BASE = {

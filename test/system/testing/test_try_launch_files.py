@@ -4,8 +4,10 @@
 
 import json
 import os
+import subprocess
 import sys
 
+from fixtures.launch_files.packages import VERDICTS, write_demos
 import pytest
 from support.running_programs import Program
 
@@ -85,6 +87,24 @@ def test_each_file_is_a_row_with_its_verdict(folder):
     assert program.output.rstrip().endswith(
         '5 tried: 1 drive; 1 come up; 1 starts nothing; 1 does not come up; 1 refused'
     )
+
+
+@pytest.mark.long
+@pytest.mark.parametrize('hardware', VERDICTS)
+def test_launch_files_of_the_field_come_up(tmp_path, monkeypatch, hardware):
+    monkeypatch.setenv('DEMO_HARDWARE', hardware)
+    monkeypatch.chdir(tmp_path)
+    expected = VERDICTS[hardware]
+    report = tmp_path / 'report.json'
+    arguments = [word for name in expected for word in ('--only', f'/{name}.launch.')]
+    write_demos(tmp_path / 'demos')
+    module = 'amr_description.testing.trial.launch_command'
+    command = [sys.executable, '-m', module, str(tmp_path), '--json', str(report), *arguments]
+    tried = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    assert tried.returncode == 0, tried.stdout
+    found = json.loads(report.read_text())
+    names = [each['file'].split('/')[-1].split('.')[0] for each in found]
+    assert dict(zip(names, (each['verdict'] for each in found), strict=True)) == expected
 
 
 def test_nothing_to_try_is_one_line(tmp_path):
