@@ -369,6 +369,9 @@ def _run(session: pytest.Session, link: Connection) -> None:
     """Run one test after the other."""
     reporting = _Reporting(session.config, link)
     session.config.pluginmanager.register(reporting)
+    # Of what the parent has heard before this worker was forked it is told anew, as the hook of
+    # warnings is historic: sent back, that would be twice as much with each worker.
+    reporting.forget()
     try:
         _run_all(session, link)
     finally:
@@ -432,6 +435,10 @@ class _Reporting:
             nodeid=nodeid,
             location=location,
         )
+
+    def forget(self) -> None:
+        """Send nothing of what has been reported so far."""
+        self._reports = []
 
     def _send(self, hook: str, **arguments: object) -> None:
         self._reports.append((hook, arguments))

@@ -144,14 +144,16 @@ def test_error(broken): pass
 
 def test_a_worker_that_dies_fails_its_test_alone(tmp_path):
     dies = """
-import os, signal
-def test_before(): pass
+import os, signal, warnings
+def test_before(): warnings.warn('look out')
+def test_between(): pass
 def test_dies(): os.kill(os.getpid(), signal.SIGSEGV)
 def test_after(): pass
 """
     with run(tmp_path, '-p', 'no:faulthandler', dies=dies, good=GOOD, more=GOOD) as program:
         assert program.end() == pytest.ExitCode.TESTS_FAILED
-    assert '1 failed, 6 passed' in program.output
+    # The worker that takes the place of the dead one does not tell of that warning once more.
+    assert '1 failed, 7 passed, 1 warning in' in program.output
     text = 'the process that ran test_dies.py::test_dies was killed by SIGSEGV'
     assert text in program.output
     assert len(of('begin', notes(tmp_path))) == 3
