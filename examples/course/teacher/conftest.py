@@ -123,6 +123,9 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 @pytest.fixture(autouse=True)
 def bounded() -> Iterator[None]:
     """Have a loop without an end fail, in place of the whole grading."""
+    if not hasattr(signal, 'SIGALRM'):  # Windows
+        yield
+        return
 
     def stop(*_: object) -> None:
         pytest.fail(f'your code had not come to an end after {LONGEST} s', pytrace=False)

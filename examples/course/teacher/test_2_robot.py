@@ -9,7 +9,7 @@ from amr_description import Simulation
 from amr_description.cli import check_urdf
 from amr_description.errors import AmrError
 
-PARAMETERS = Path(__file__).parent / 'reference' / 'robot.yaml'
+PARAMETERS = Path(__file__).parent / 'robot.yaml'
 
 
 def said(text, work):

@@ -164,7 +164,7 @@ def test_the_points_are_those_that_students_and_teachers_read(reference):
 def test_both_have_the_same_parameter_file():
     """What the students have is what they are graded with."""
     given = (COURSE / 'student' / 'robot.yaml').read_text()
-    assert (REFERENCE / 'robot.yaml').read_text() == given
+    assert (COURSE / 'teacher' / 'robot.yaml').read_text() == given
 
 
 def test_the_page_grades_as_the_test_does(skeleton):
