@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-ROS arguments as words.
+ROS arguments as words, and what is a ROS domain.
 
 rcl's grammar of them, between ``--ros-args`` and ``--`` (or the end)::
 
@@ -12,11 +12,21 @@ rcl's grammar of them, between ``--ros-args`` and ``--`` (or the end)::
 
 from collections.abc import Iterator, Sequence
 
+DOMAIN = 'ROS_DOMAIN_ID'
+LAST_DOMAIN = 232
+"""The ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)."""
+OF_DOMAINS = f'a ROS domain is an integer from 0 to {LAST_DOMAIN}'
+
 _IDENTITY = ('__node:=', '__name:=', '__ns:=')
 _REMAPS = ('-r', '--remap')
 _PARAMETERS = ('-p', '--param')
 _RULES = (*_REMAPS, *_PARAMETERS)
 _WITHOUT_VALUE = ('--enable-', '--disable-')
+
+
+def is_domain(text: str) -> bool:
+    """Return whether a text is the number of a ROS domain."""
+    return text.isdecimal() and int(text) <= LAST_DOMAIN
 
 
 def ros_arguments(words: Sequence[str]) -> list[str]:

@@ -27,8 +27,8 @@ import sys
 
 from amr_description.ament_index import package_prefix
 from amr_description.errors import UsageError
+from amr_description.ros_arguments import DOMAIN, is_domain, LAST_DOMAIN, OF_DOMAINS
 
-DOMAIN = 'ROS_DOMAIN_ID'
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 PEERS = 'ROS_STATIC_PEERS'
 SERVER = 'ROS_DISCOVERY_SERVER'
@@ -36,7 +36,6 @@ SERVER = 'ROS_DISCOVERY_SERVER'
 # Children of the same virtual environment inherit both, which saves each of them 0.1 s.
 WHEELS_GUARD = '_ROS_WHEELS_BOOTSTRAP_COMPLETE'
 
-_LAST_DOMAIN = 232  # the ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)
 _RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')  # as rcl spells them
 _SERVER_PORT = 11811  # Fast DDS's default
 _OPTIONS = {
@@ -60,7 +59,7 @@ _LONGEST_PATH = 4096
 def add_options(parser: ArgumentParser) -> None:
     """Add the options to a command's parser."""
     group = parser.add_argument_group('who finds the nodes, and whom they find')
-    group.add_argument('--domain', metavar='N', help=f'ROS domain, 0 to {_LAST_DOMAIN} ({DOMAIN})')
+    group.add_argument('--domain', metavar='N', help=f'ROS domain, 0 to {LAST_DOMAIN} ({DOMAIN})')
     group.add_argument(
         '--discovery',
         metavar='RANGE',
@@ -129,8 +128,8 @@ def _check_inherited(variable: str, text: str) -> None:
 
 
 def _checked_domain(value: str, source: str) -> str:
-    if not value.isdecimal() or int(value) > _LAST_DOMAIN:
-        raise UsageError(f'{source}: a ROS domain is an integer from 0 to {_LAST_DOMAIN}')
+    if not is_domain(value):
+        raise UsageError(f'{source}: {OF_DOMAINS}')
     return value
 
 

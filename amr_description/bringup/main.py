@@ -47,6 +47,7 @@ from amr_description.bringup.stacks import STACKS
 from amr_description.bringup.terminal import require_terminal
 from amr_description.errors import AmrError, ParameterError
 from amr_description.launch_log import LAUNCH_LOG
+from amr_description.ros_arguments import DOMAIN
 
 _INDENT = '    '
 _PROLOGUE = re.compile(r'<!--.*?-->|<\?.*?\?>', re.DOTALL)
@@ -111,7 +112,7 @@ def start(
         if node.terminal:
             require_terminal(node.executable, node.package)
     run = run_name(datetime.now())
-    about = {'stack': name, 'domain': int(os.environ.get(environment.DOMAIN) or 0)}
+    about = {'stack': name, 'domain': int(os.environ.get(DOMAIN) or 0)}
     record = RunRecord(registry_folder(os.environ), run)
     names = run_registry.unique_names(process_specs(stack, Path(), prefix))
     record.register(about, names=names, force=force)

@@ -47,6 +47,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import ctypes
 from functools import cache
+import os
 from pathlib import Path
 import re
 import sys
@@ -75,6 +76,7 @@ from amr_description.ros.rclpy_internals import (
 )
 from amr_description.ros.signals import StopRequested, StopRequests
 from amr_description.ros.transport import udp_only
+from amr_description.ros_arguments import DOMAIN, is_domain, OF_DOMAINS
 from amr_description.streams import print_traceback
 from amr_description.text import unwrap
 
@@ -166,6 +168,8 @@ def ros(args: list[str] | None = None) -> Iterator[StopRequests]:
         try:
             use_whole_graph()
             mend_parameter_services()
+            if (domain := os.environ.get(DOMAIN, '')) and not is_domain(domain):
+                raise ParameterError(f'{DOMAIN}={domain}: {OF_DOMAINS}')  # rcl says nothing of it
             with argument_errors(), udp_only():
                 rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
             bound_listener_wait()

@@ -8,14 +8,12 @@ import re
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.environment import Environment, PROFILES
+from amr_description.ros_arguments import DOMAIN, is_domain, OF_DOMAINS
 from amr_description.text import did_you_mean, quote, quote_all, shorten
 
 DISTRIBUTION = 'jazzy'
-LAST_DOMAIN = 232
-"""The ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)."""
 RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
 
-_DOMAIN = 'ROS_DOMAIN_ID'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'
 _PEERS = 'ROS_STATIC_PEERS'
@@ -156,13 +154,13 @@ def domain(seen: Observations) -> Iterator[Finding]:
 
     Where ``ROS_DOMAIN_ID`` is not set, the domain is 0.
     """
-    text = seen.environment.value(_DOMAIN) if seen.environment else ''
-    if text and (not text.isdecimal() or int(text) > LAST_DOMAIN):
+    text = seen.environment.value(DOMAIN) if seen.environment else ''
+    if text and not is_domain(text):
         yield error(
             'domain',
-            f'{_DOMAIN} is {quote(text)}',
-            f'a ROS domain is an integer from 0 to {LAST_DOMAIN}; nodes do not start',
-            f'export {_DOMAIN}=0',
+            f'{DOMAIN} is {quote(text)}',
+            f'{OF_DOMAINS}; nodes do not start',
+            f'export {DOMAIN}=0',
         )
 
 

@@ -172,6 +172,15 @@ def test_wrong_ros_arguments_are_one_line_and_exit_1(args, words, capfd):
     assert '/project/src' not in re.sub(r'\[ERROR\].*', '', error)
 
 
+@pytest.mark.parametrize('domain', ['233', 'abc', '-1'])
+def test_a_number_that_is_no_domain_is_one_line_and_exit_1(domain, monkeypatch, capfd):
+    monkeypatch.setenv('ROS_DOMAIN_ID', domain)
+    assert run(lambda: Node('fixture'), []) == 1
+    said = capfd.readouterr().err
+    assert said.count('\n') == 1
+    assert f'ROS_DOMAIN_ID={domain}: a ROS domain is an integer from 0 to 232' in said
+
+
 def test_names_that_ros_refuses_are_argument_errors(context):
     with pytest.raises(ParameterError, match='Invalid node name'), argument_errors():
         Node('not a name')
