@@ -46,7 +46,7 @@ FEW_LINES = 80
 # workers.
 BUDGETS = {
     'modules': 875,
-    'code lines': 102_088,
+    'code lines': 102_096,
     'small modules of one importer beside them': 37,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
