@@ -293,6 +293,7 @@ class Orchestrator:
                 folder = spec.node.folder
                 splits = self._observer is not None
                 return Child(spec.command, environment, reader, on_line, server, folder, splits)
+            self._scheduler.expect_start(spec.node)
             reporter.progress(self._scheduler)  # while all of it can still be seen
             reporter.lending_terminal(spec.node)
             try:

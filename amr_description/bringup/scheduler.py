@@ -161,6 +161,7 @@ class Scheduler:
         self._logged = [part for part in self._parts if isinstance(part, Logged)]
         self._nodes = {node: NodeState() for node in self._conditions}
         self._last_start: dict[Node, float] = {}
+        self._have_run: set[Node] = set()
         self._state = StackState(self._nodes, time=start_time, start_time=start_time)
         self._timeouts = Timeouts(
             {each.node: each.timeout for each in placement.nodes}, stack.timeout
@@ -181,18 +182,23 @@ class Scheduler:
         """What the conditions are evaluated against now."""
         return self._state
 
-    def on_start(self, node: Node) -> None:
-        """Note that the process of a node was started."""
+    def expect_start(self, node: Node) -> None:
+        """Take the process of a node as started: one that will have the terminal ends all talk."""
         self._last_start[node] = self._state.time
         self._nodes[node] = NodeState(started=True, restarts=self._nodes[node].restarts)
         self._update()
+
+    def on_start(self, node: Node) -> None:
+        """Note that the process of a node was started."""
+        self._have_run.add(node)
+        self.expect_start(node)
         self._call_handlers()
 
     def on_no_start(self, node: Node, returncode: int, last_lines: Sequence[str]) -> None:
         """Note that no process could be made of a node: as :meth:`on_exit`, but it never ran."""
         self._last_start[node] = self._state.time
-        before = self._nodes[node]
-        self._nodes[node] = replace(before, absent=before.absent or not before.started)
+        is_absent = node not in self._have_run
+        self._nodes[node] = replace(self._nodes[node], absent=is_absent)
         self.on_exit(node, returncode, last_lines)
 
     def on_exit(self, node: Node, returncode: int, last_lines: Sequence[str] = ()) -> None:
