@@ -51,7 +51,7 @@ class Shell:
         line = line_of(self.book, beginning)
         self.type(f'{line}\necho "exit=$?"')
         begin = self._program.expect(re.escape('echo "exit=$?"') + r'\r?\n', self._seen).end()
-        within = _BUILD_TIMEOUT if line.startswith('colcon ') else PATIENCE
+        within = _BUILD_TIMEOUT if 'colcon ' in line else PATIENCE
         end = self._program.expect(r'exit=(\d+)\r?\n' + re.escape(PROMPT), begin, within=within)
         printed = _COLOUR.sub('', self._program.output[begin : end.start()].replace('\r\n', '\n'))
         assert int(end[1]) == code, printed

@@ -3,6 +3,7 @@
 """examples/course: what its grader says of no answer, of the reference, of typical wrong ones."""
 
 import json
+import os
 import re
 import shutil
 import sys
@@ -98,6 +99,7 @@ def grade(tmp_path_factory, work, *options):
     done = preloaded.run(
         [*command, '--work', str(work), '--results', str(file), *options],
         cwd=COURSE,
+        env=os.environ | {'PYTEST_ADDOPTS': ''},  # those of the run that this test is of
         timeout=120.0,
     )
     return done, json.loads(file.read_text())

@@ -54,7 +54,7 @@ def test_a_setup_py_that_cannot_be_read_is_one_line_and_the_others_are_built(tmp
         env={**os.environ, 'COLCON_HOME': str(tmp_path)},
         capture_output=True,
         text=True,
-        timeout=PATIENCE,
+        timeout=4 * PATIENCE,
     )
     assert built.returncode == 1
     said = built.stderr.partition(f'--- stderr: {fault}\n')[2].partition('---\n')[0]
