@@ -143,6 +143,8 @@ def test_shards_are_judged_together(tmp_path, capsys):
 )
 def test_what_cannot_be_run_is_one_line_and_two(words, said, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, 'distributed', None)  # no Dask
+    monkeypatch.setitem(sys.modules, FILE.stem, None)  # as it is now, after this test
+    del sys.modules[FILE.stem]
     monkeypatch.chdir(FILE.parent)
     try:
         code = trials_command.main(words)
