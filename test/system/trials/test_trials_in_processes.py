@@ -133,19 +133,18 @@ def test_shards_are_judged_together(tmp_path, capsys):
 @pytest.mark.parametrize(
     ('words', 'said'),
     [
-        (['drives:nothing'], 'there is no function of that name'),
+        ([f'{FILE}:nothing'], 'there is no function of that name'),
         ([], 'name a trial, as my_module:drive'),
-        (['drives:quick', '--shard', '9/8'], "'9/8' is no shard"),
-        (['drives:quick', '--only', 'x'], '--only x names no run'),
+        ([f'{FILE}:quick', '--shard', '9/8'], "'9/8' is no shard"),
+        ([f'{FILE}:quick', '--only', 'x'], '--only x names no run'),
         (['--merge', 'none.json'], 'none.json cannot be read: No such file'),
-        (['drives:quick', '--dask', 'tcp://127.0.0.1:1'], '--dask needs Dask'),
+        ([f'{FILE}:quick', '--dask', 'tcp://127.0.0.1:1'], '--dask needs Dask'),
     ],
 )
 def test_what_cannot_be_run_is_one_line_and_two(words, said, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, 'distributed', None)  # no Dask
     monkeypatch.setitem(sys.modules, FILE.stem, None)  # as it is now, after this test
     del sys.modules[FILE.stem]
-    monkeypatch.chdir(FILE.parent)
     try:
         code = trials_command.main(words)
     except SystemExit as end:
