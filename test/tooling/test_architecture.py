@@ -46,12 +46,12 @@ FEW_LINES = 80
 # workers.
 BUDGETS = {
     'modules': 875,
-    'code lines': 102_096,
+    'code lines': 102_101,
     'small modules of one importer beside them': 37,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_979,
+    'code lines of helpers in test files': 27_980,
 }
 
 BASE = {
