@@ -4,8 +4,10 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 import math
 from pathlib import Path
+from typing import NamedTuple, TypeAlias
 
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import MeshError, ResourceError
@@ -22,6 +24,18 @@ _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
 """visualization_msgs/msg/Marker"""
 
 
+_MeshKey: TypeAlias = tuple[str, str, bytes]
+"""Resource, and name and content of the file that comes with the marker."""
+
+
+class _Mesh(NamedTuple):
+    """A file that is served, or why there is none."""
+
+    name: str = ''
+    content: Path | bytes = b''
+    fault: str = ''
+
+
 class MarkerStore:
     """
     The markers of a topic, by namespace and id.
@@ -36,8 +50,8 @@ class MarkerStore:
     def __init__(self) -> None:
         self._markers: dict[tuple[str, int], tuple[MarkerData, float]] = {}
         self._unknown: list[str] = []
-        self._meshes: dict[str, tuple[str, str]] = {}
-        """Address of each resource, or why there is none."""
+        self._meshes: dict[_MeshKey, _Mesh] = {}
+        """Those of the last drawing."""
         self.time = -math.inf
         self.is_empty = True
         self.files: Mapping[str, Path | bytes] = {}
@@ -80,28 +94,32 @@ class MarkerStore:
         drawing = MarkDrawing(sum(sizes), singles=sizes.count(1))
         for text in self._unknown:
             drawing.tell(text, '')
+        meshes: dict[_MeshKey, _Mesh] = {}
         for each in markers:
-            drawing.add_marker(each, self._mesh)
+            drawing.add_marker(each, partial(self._mesh, meshes))
+        # Of what no marker names any more nothing is kept: there may be new ones all the time.
+        self._meshes = meshes
+        self.files = {each.name: each.content for each in meshes.values() if each.name}
         newest = max((each.header.stamp for each in markers), default=0)
         return drawing.finish(replace(origin, stamp=newest / NANOSECONDS))
 
-    def _mesh(self, marker: MarkerData) -> str:
-        """Return the address of the mesh of a marker. May raise."""
-        uri = marker.mesh_resource
-        name, data = marker.mesh
-        known = self._meshes.get(uri)
-        if known is None or len(data):
-            try:
-                file = served_file(uri, (name, data.tobytes()) if len(data) else None)
-                known = f'/mesh/{file.name}', ''
-                self.files = {**self.files, file.name: file.content}
-            except (ResourceError, MeshError) as error:
-                known = '', f'Could not load resource [{shorten(uri)}]: {error}'
-            self._meshes[uri] = known
-        address, fault = known
-        if fault:
-            raise MarkError(fault)
-        return address
+    def _mesh(self, meshes: dict[_MeshKey, _Mesh], marker: MarkerData) -> str:
+        """Return the address of the mesh of a marker, and note it in ``meshes``. May raise."""
+        uri, (name, data) = marker.mesh_resource, marker.mesh
+        key = uri, name, data.tobytes()
+        mesh = meshes.get(key) or self._meshes.get(key) or _mesh_of(*key)
+        meshes[key] = mesh
+        if mesh.fault:
+            raise MarkError(mesh.fault)
+        return f'/mesh/{mesh.name}'
+
+
+def _mesh_of(uri: str, name: str, data: bytes) -> _Mesh:
+    try:
+        file = served_file(uri, (name, data) if data else None)
+    except (ResourceError, MeshError) as error:
+        return _Mesh(fault=f'Could not load resource [{shorten(uri)}]: {error}')
+    return _Mesh(file.name, file.content)
 
 
 def markers_sample(data: bytes, origin: Origin) -> Drawn:

@@ -86,17 +86,15 @@ class MarkError(Exception):
 def size_of(marker: MarkerData) -> int:
     """Return of how many shapes, lines and points a marker is."""
     count = len(marker.points)
-    match marker.type:
-        case _ if marker.type in (_LINE_STRIP, _ARROW_STRIP):
-            return max(1, count - 1)
-        case _ if marker.type == _LINE_LIST:
-            return max(1, count // 2)
-        case _ if marker.type == _TRIANGLES:
-            return max(1, count // 3)
-        case _ if marker.type in (_CUBE_LIST, _SPHERE_LIST, _POINTS):
-            return max(1, count)
-        case _:
-            return 1
+    if marker.type in (_LINE_STRIP, _ARROW_STRIP):
+        count -= 1
+    elif marker.type == _LINE_LIST:
+        count //= 2
+    elif marker.type == _TRIANGLES:
+        count //= 3
+    elif marker.type not in (_CUBE_LIST, _SPHERE_LIST, _POINTS):
+        count = 1
+    return max(1, count)
 
 
 @dataclass(frozen=True, slots=True)

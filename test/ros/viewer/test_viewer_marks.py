@@ -376,3 +376,16 @@ def test_a_reset_clears_what_is_of_a_time_to_come(feed):
     assert feed.take() == 1
     feed.now = 1.0
     assert feed.take() == 0
+
+
+def test_of_meshes_that_no_marker_names_any_more_nothing_is_kept(feed):
+    """A publisher may send a new one with each message."""
+    for number in range(3):
+        mesh = marker(Marker.MESH_RESOURCE, mesh_resource='embedded://part.stl')
+        mesh.mesh_file.filename, mesh.mesh_file.data = 'part.stl', bytes([number]) * 84
+        feed.topic.publish(mesh)
+        assert feed.take() == 1
+        assert [*feed.feed.files.values()] == [bytes([number]) * 84]
+    feed.topic.publish(Marker(action=Marker.DELETEALL))
+    assert feed.take() == 0
+    assert not feed.feed.files
