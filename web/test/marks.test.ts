@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { InstancedMesh, Matrix4, Points, Vector3, type Object3D } from 'three';
+import { BufferGeometry, InstancedMesh, Matrix4, Mesh, Points, Vector3, type Object3D } from 'three';
 import type { MarkBatch, Marks, SensorInfo } from '../src/protocol';
 import { batchesOf, type Sample } from '../src/samples';
 import { MarkLayer } from '../src/scene/marks';
@@ -106,4 +106,24 @@ test('a topic that is hidden is gone, and what is no mark is left to others', ()
   assert.deepEqual([made.object.children.length, made.numbers()], [0, {}]);
   const other = { ...marks([]), head: { ...marks([]).head, type: 'path' as const, length: 0 } };
   assert.equal(made.take(TOPIC, other), false);
+});
+
+test('of meshes that no mark has any more nothing is kept', async () => {
+  const freed: string[] = [];
+  const read = (resource: string): Promise<Object3D> => {
+    const mesh = new Mesh(new BufferGeometry());
+    mesh.geometry.addEventListener('dispose', () => freed.push(resource));
+    return Promise.resolve(mesh);
+  };
+  const made = new MarkLayer(() => {}, () => {}, undefined, read);
+  const mesh = (name: string): Sample<Marks> => marks([batch('mesh', { resource: name, address: `/mesh/${name}` })], ...BOX);
+  for (const name of ['a', 'b']) {
+    made.take(TOPIC, mesh(name));
+    await Promise.resolve();
+  }
+  assert.deepEqual(freed, ['a']);
+  made.take(TOPIC, mesh('b'));
+  assert.deepEqual(freed, ['a']);
+  made.retain(new Set());
+  assert.deepEqual(freed, ['a', 'b']);
 });

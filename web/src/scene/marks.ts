@@ -84,6 +84,7 @@ export class MarkLayer {
     private readonly changed: () => void,
     private readonly failed: (text: string) => void,
     private readonly lookOf: LookOf = ({ kind }) => firstLook(kind),
+    private readonly read: typeof loadMesh = loadMesh,
   ) {}
 
   /** Take over a sample; false: it is none of marks. */
@@ -104,6 +105,7 @@ export class MarkLayer {
     const used = new Set(parts.map(keyOf));
     const kept = [...settled].filter(([key]) => used.has(key));
     this.shown.set(info.topic, { info, sample, group, parts, settled: new Map(kept) });
+    this.forgetMeshes();
     return true;
   }
 
@@ -117,6 +119,7 @@ export class MarkLayer {
 
   retain(topics: ReadonlySet<string>): void {
     [...this.shown.keys()].filter((topic) => !topics.has(topic)).forEach((topic) => this.drop(topic));
+    this.forgetMeshes();
   }
 
   /** Find the places anew: another frame stands still. */
@@ -234,12 +237,27 @@ export class MarkLayer {
     return group;
   }
 
+  /** Free the meshes that no mark has any more: there may be new ones all the time. */
+  private forgetMeshes(): void {
+    const parts = [...this.shown.values()].flatMap((shown) => shown.parts);
+    const named = new Set(parts.map(({ object }) => (object.userData.batch as MarkBatch | undefined)?.address));
+    for (const [address, mesh] of this.meshes) {
+      if (!named.has(address)) {
+        this.meshes.delete(address);
+        mesh?.traverse((each) => (each as Partial<Mesh>).geometry?.dispose());
+      }
+    }
+  }
+
   private async load(batch: MarkBatch): Promise<void> {
     const { address, resource } = batch;
     this.meshes.set(address, null);
     const files = { [resource]: address };
     try {
-      const mesh = await loadMesh(resource, files, managerOf(files), new MeshPhongMaterial({ color: '#b0b0b0' }));
+      const mesh = await this.read(resource, files, managerOf(files), new MeshPhongMaterial({ color: '#b0b0b0' }));
+      if (!this.meshes.has(address)) {
+        return; // nobody waits for it any more
+      }
       this.meshes.set(address, mesh);
       for (const part of [...this.shown.values()].flatMap(({ parts }) => parts)) {
         const waiting = part.object.userData.batch as MarkBatch | undefined;
