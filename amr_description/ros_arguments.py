@@ -15,6 +15,8 @@ from collections.abc import Iterator, Sequence
 DOMAIN = 'ROS_DOMAIN_ID'
 LAST_DOMAIN = 232
 """The ports of the next one would exceed 65535 (DDSI-RTPS 2.5, 9.6.2.3)."""
+RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
+"""ROS_AUTOMATIC_DISCOVERY_RANGE, as rcl spells it."""
 OF_DOMAINS = f'a ROS domain is an integer from 0 to {LAST_DOMAIN}'
 
 _IDENTITY = ('__node:=', '__name:=', '__ns:=')

@@ -27,7 +27,7 @@ import sys
 
 from amr_description.ament_index import package_prefix
 from amr_description.errors import UsageError
-from amr_description.ros_arguments import DOMAIN, is_domain, LAST_DOMAIN, OF_DOMAINS
+from amr_description.ros_arguments import DOMAIN, is_domain, LAST_DOMAIN, OF_DOMAINS, RANGES
 
 RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 PEERS = 'ROS_STATIC_PEERS'
@@ -36,7 +36,6 @@ SERVER = 'ROS_DISCOVERY_SERVER'
 # Children of the same virtual environment inherit both, which saves each of them 0.1 s.
 WHEELS_GUARD = '_ROS_WHEELS_BOOTSTRAP_COMPLETE'
 
-_RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')  # as rcl spells them
 _SERVER_PORT = 11811  # Fast DDS's default
 _OPTIONS = {
     DOMAIN: '--domain',
@@ -134,8 +133,8 @@ def _checked_domain(value: str, source: str) -> str:
 
 
 def _checked_range(value: str, source: str) -> str:
-    if value.upper() not in _RANGES:
-        raise UsageError(f'{source}: a discovery range is one of {", ".join(_RANGES)}')
+    if value.upper() not in RANGES:
+        raise UsageError(f'{source}: a discovery range is one of {", ".join(RANGES)}')
     return value.upper()
 
 

@@ -8,11 +8,10 @@ import re
 from amr_description.doctor.findings import error, Finding, Rule, warning
 from amr_description.doctor.observations import Observations
 from amr_description.doctor.observations.environment import Environment, PROFILES
-from amr_description.ros_arguments import DOMAIN, is_domain, OF_DOMAINS
+from amr_description.ros_arguments import DOMAIN, is_domain, OF_DOMAINS, RANGES
 from amr_description.text import did_you_mean, quote, quote_all, shorten
 
 DISTRIBUTION = 'jazzy'
-RANGES = ('SUBNET', 'LOCALHOST', 'OFF', 'SYSTEM_DEFAULT')
 
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOCALHOST_ONLY = 'ROS_LOCALHOST_ONLY'

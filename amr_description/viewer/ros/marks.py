@@ -40,13 +40,13 @@ _NO_FRAME = 'For frame []: Frame [] does not exist'
 _NO_QUATERNION = 'Uninitialized quaternion, assuming identity.'
 _TRANSPARENT = 'Marker is fully transparent (color.a is 0.0).'
 _NO_SCALE = 'Scale contains 0.0 in x, y or z.'
-_NO_MULTIPLE = 'Number of points should be a multiple of {} for {} marker.'
 _ROUGHLY_ONE = 0.01
 
 _ARROW, _LINE_STRIP, _LINE_LIST, _CUBE_LIST, _SPHERE_LIST, _POINTS = 0, 4, 5, 6, 7, 8
 _TEXT, _MESH, _TRIANGLES, _ARROW_STRIP = 9, 10, 11, 12
 """visualization_msgs/msg/Marker"""
 _SHAPES: Mapping[int, '_Kind'] = {1: 'box', 2: 'sphere', 3: 'cylinder'}
+_POINTS_OF = {_LINE_LIST: 2, _TRIANGLES: 3, _CUBE_LIST: 1, _SPHERE_LIST: 1, _POINTS: 1}
 _SHAPE_LISTS: Mapping[int, '_Kind'] = {_CUBE_LIST: 'box', _SPHERE_LIST: 'sphere'}
 
 # RViz's defaults of its displays: m, and red, green, blue.
@@ -87,14 +87,8 @@ def size_of(marker: MarkerData) -> int:
     """Return of how many shapes, lines and points a marker is."""
     count = len(marker.points)
     if marker.type in (_LINE_STRIP, _ARROW_STRIP):
-        count -= 1
-    elif marker.type == _LINE_LIST:
-        count //= 2
-    elif marker.type == _TRIANGLES:
-        count //= 3
-    elif marker.type not in (_CUBE_LIST, _SPHERE_LIST, _POINTS):
-        count = 1
-    return max(1, count)
+        return max(1, count - 1)
+    return max(1, count // _POINTS_OF[marker.type]) if marker.type in _POINTS_OF else 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -467,11 +461,14 @@ def poses_sample(data: bytes, origin: Origin) -> Drawn:
     poses = found.poses
     drawing = MarkDrawing(len(poses))
     try:
-        place, norms = _origin_of(drawing, found.header, poses), _norms(poses)
+        place = _origin_of(drawing, found.header, poses)
+        norms = np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
         if (norms == 0.0).any():
             drawing.tell(_NO_QUATERNION, '')
         # The direction and the left of each pose, by the columns of its matrix.
-        x, y, z, w = np.where(norms == 0.0, [[0, 0, 0, 1]], poses[:, 3:] / _or_one(norms)).T
+        x, y, z, w = np.where(
+            norms == 0.0, [[0, 0, 0, 1]], poses[:, 3:] / np.where(norms, norms, 1)
+        ).T
         ahead = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], 1)
         left = np.stack([2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)], 1)
         tail = poses[:, :3]
@@ -518,15 +515,6 @@ def _origin_of(drawing: MarkDrawing, header: Header, values: Array) -> _Stand:
     if not np.isfinite(values).all():
         raise MarkError(_NOT_FINITE)
     return drawing.place(header, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), '', color=(1.0,) * 4)
-
-
-def _norms(poses: Array) -> Array:
-    norms: Array = np.linalg.norm(poses[:, 3:], axis=1, keepdims=True)
-    return norms
-
-
-def _or_one(norms: Array) -> Array:
-    return np.where(norms == 0.0, 1.0, norms)
 
 
 def _finished(drawing: MarkDrawing, origin: Origin, header: Header) -> Drawn:
