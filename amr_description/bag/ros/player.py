@@ -105,6 +105,7 @@ class Player:
         self._ending = False
         self._wake = threading.Event()
         self._thread = threading.Thread(target=self._run, name='player')
+        self._has_begun = threading.Event()
         self._recording = recording
         self._splits = SplitWatch(recording.splits())
         self._first_run = self._told_resets = 0
@@ -171,7 +172,9 @@ class Player:
         """End playing, and wait for that."""
         self._ending = True
         self._wake.set()
-        if self._thread.ident is not None:
+        # Also one that is made and has not begun: start() may have been interrupted meanwhile.
+        if self._thread in threading.enumerate():
+            self._has_begun.wait()
             self._thread.join()
 
     def await_end(self) -> None:
@@ -297,6 +300,7 @@ class Player:
         return results[0] if results else None
 
     def _run(self) -> None:
+        self._has_begun.set()
         try:
             self._play()
             self._await_acknowledgements()

@@ -69,7 +69,7 @@ def play(
             if options.has_clock or '/clock' in recording.topics:
                 _refuse_second_clock(node)
             with _keyboard(node, player, args):
-                with session.stop.deferred(session.interrupt):  # else nobody waits for its thread
+                with session.stop.deferred(session.interrupt):  # while its thread is made
                     player.start()
                 if burst is not None:
                     player.burst(burst)
