@@ -9,6 +9,7 @@ explain itself: somebody waits for the end.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+import contextlib
 import re
 import signal
 from typing import TypeAlias
@@ -23,8 +24,10 @@ COMMAND = python_command(
 )
 TIMEOUT = 20.0
 """s after which a failure is reported without it, as on a machine that is too busy."""
+NOT_STARTED = 'could not be started: '
+"""How the line begins that says why there is no process."""
 _MARK = 'doctor: '
-_LOGGED_REASON = re.compile(r'\[(?:ERROR|FATAL)\] \[[\d.]+\] \[(?!rcl|rmw)')
+_SAYS_WHY = re.compile(rf'\[(?:ERROR|FATAL)\] \[[\d.]+\] \[(?!rcl|rmw)|^{NOT_STARTED}')
 
 Spawn: TypeAlias = Callable[[Sequence[str], Callable[[str], None]], RunningProcess]
 """Starts a command; takes the callback for the lines of its output; may raise OSError."""
@@ -36,13 +39,14 @@ def is_unexplained(
     """
     Return whether a cause is to be looked for.
 
-    Not after a signal, as of somebody's ``kill``, nor where the last line of the program is an
-    error that it has logged itself: executables of this package so say what would do.
+    Not after a signal, as of somebody's ``kill``, nor where the last line says why there is no
+    process, or is an error that the program has logged itself: executables of this package so say
+    what would do.
     """
     if not isinstance(failure, Failure):
         return failure is not None
     written = [line for line in last_lines[failure.node] if line.strip()]
-    return failure.returncode > 0 and not (written and _LOGGED_REASON.search(written[-1]))
+    return failure.returncode > 0 and not (written and _SAYS_WHY.search(written[-1]))
 
 
 class Diagnosis:
@@ -52,10 +56,8 @@ class Diagnosis:
         """Start it."""
         self._lines: list[str] = []
         self.process: RunningProcess | None = None
-        try:
+        with contextlib.suppress(OSError):
             self.process = spawn(COMMAND, self._on_line)
-        except OSError:
-            self.process = None
 
     @property
     def text(self) -> str:

@@ -25,7 +25,7 @@ from typing import Protocol
 from amr_description.bringup.command_line import ProcessSpec
 from amr_description.bringup.console import Console
 from amr_description.bringup.description import Node, Stack
-from amr_description.bringup.diagnosis import Diagnosis, is_unexplained, TIMEOUT
+from amr_description.bringup.diagnosis import Diagnosis, is_unexplained, NOT_STARTED, TIMEOUT
 from amr_description.bringup.environment import child_environment
 from amr_description.bringup.fork_server import ForkServer
 from amr_description.bringup.graph_watcher import COMMAND, ExternalState, GraphWatch
@@ -265,7 +265,7 @@ class Orchestrator:
             child = self._spawn(spec, environment | self._lifeline.variables)
         except (OSError, BringupError) as error:
             why = spec.explain(error) if isinstance(error, OSError) else str(error)
-            reason = f'could not be started: {why}'
+            reason = f'{NOT_STARTED}{why}'
             self._reporter.not_started(node, reason)
             self._last_lines[node] = [reason]
             self._scheduler.on_no_start(node, CANNOT_START, [reason])

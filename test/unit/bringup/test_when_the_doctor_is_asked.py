@@ -23,6 +23,7 @@ FATAL = '[FATAL] [1.2] [create]: Entity creation failed'
         (1, ['[create-3] [ERROR] [1.2] [create]: Entity creation failed'], False),
         (102, ['[ERROR] [1.2] [rcl]: Expected RMW implementation identifier'], True),
         (-9, ['a'], False),
+        (126, ['could not be started: step begins with #!/nowhere, which is not there'], False),
     ],
 )
 def test_it_is_asked_where_nothing_else_explains(code, lines, is_asked):
