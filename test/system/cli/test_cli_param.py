@@ -18,7 +18,7 @@ IMPATIENT = """\
 import sys
 from amr_description.cli.main import main
 from amr_description.cli.param import requests
-requests._RESPONSE_TIMEOUT = 1.5
+requests._RESPONSE_TIMEOUT = 3.0
 sys.exit(main('ros2', sys.argv[1:]))
 """
 

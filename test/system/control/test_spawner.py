@@ -366,12 +366,12 @@ def test_an_interrupted_wait_is_not_a_success(host):
 
 
 def test_a_namespace_may_be_given_in_the_old_way_but_not_twice(host):
-    ended = run('spawner', JOINTS, '-n', 'left', '--controller-manager-timeout', '1')
+    ended = run('spawner', JOINTS, '-n', 'left', '--controller-manager-timeout', '3')
     assert ended.returncode == 1
     deprecated, _, error = words_of(ended)
     assert deprecated.startswith("The '--namespace' argument is deprecated and will be removed ")
     assert error.startswith(
-        'Could not contact service /left/controller_manager/list_controllers within 1 s: there is '
+        'Could not contact service /left/controller_manager/list_controllers within 3 s: there is '
         'no node /left/controller_manager, but /controller_manager; name it with -c'
     )
     ended = run('spawner', JOINTS, '-n', 'left', '--ros-args', '-r', '__ns:=/left')

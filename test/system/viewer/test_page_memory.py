@@ -22,7 +22,7 @@ from amr_description.viewer.states import StateFrame
 PERIOD = 2.0  # s of simulated time between two states
 EVERY = 200
 """A state at rest is sent once in so many periods."""
-STAGE = 100  # states that any machine draws within a test's patience, ten a second beside load
+STAGE = 20  # states that any machine draws within a test's patience
 RADIUS = 5.0  # m
 SPEED = 0.5  # m/s
 MOST_POINTS = 2 * 1024  # of a trail where the processor draws
