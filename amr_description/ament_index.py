@@ -13,6 +13,7 @@ its executables and files are found first, and what it lacks is found here.
 
 from collections.abc import Iterator
 from contextlib import suppress
+import glob
 import os
 from pathlib import Path
 import re
@@ -356,10 +357,25 @@ def package_in(manifest: Path) -> str | None:
 
 
 def hint_at(missing: Path) -> str:
-    """Return what would do about a file that is not there: to build, or another name; or ''."""
+    """Return what would do about a file that is not there: cd, build, or another name; or ''."""
     if (source := source_of(missing)) is not None:
         return not_installed(source)
-    return did_you_mean(missing.name, [each.name for each in missing.parent.glob('*')])
+    if folders := _folders_with(missing):
+        return f'; it is in {" and in ".join(folders)}: cd {folders[0]}'
+    return did_you_mean(
+        missing.name, [each.name for each in missing.parent.glob('*') if each.is_file()]
+    )
+
+
+def _folders_with(missing: Path) -> list[str]:
+    """Return the folders, one or two below the present one, from which a file would be found."""
+    here = Path.cwd()
+    if not missing.is_relative_to(here):
+        return []
+    name = missing.relative_to(here)
+    depths = (f'*/{glob.escape(str(name))}', f'*/*/{glob.escape(str(name))}')
+    found = (each.relative_to(here) for depth in depths for each in sorted(here.glob(depth)))
+    return [str(each).removesuffix(f'/{name}') for each in found]
 
 
 def not_installed(source: Path) -> str:

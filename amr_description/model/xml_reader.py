@@ -16,6 +16,7 @@ from typing import BinaryIO
 
 from lxml import etree
 
+from amr_description.ament_index import hint_at
 from amr_description.errors import DescriptionError
 from amr_description.model.findings import Finding, Report
 from amr_description.model.frames import Vector
@@ -63,6 +64,8 @@ def read_file(path: str | Path) -> str:
             return read_stream(stream, str(path))
     except (OSError, ValueError) as error:
         reason = getattr(error, 'strerror', None) or str(error)
+        if isinstance(error, FileNotFoundError):
+            reason += hint_at(Path(path).absolute())
         raise DescriptionError(
             f'cannot read the description {quote(str(path))}: {reason}'
         ) from None

@@ -10,7 +10,7 @@ from ament_index_python import get_package_prefix, get_packages_with_prefixes
 import pytest
 from support.paths import ROOT
 
-from amr_description.ament_index import package_prefix, packages
+from amr_description.ament_index import hint_at, package_prefix, packages
 from amr_description.errors import DescriptionError, ResourceError
 from amr_description.model.description_file import description_text
 
@@ -76,3 +76,16 @@ def test_it_needs_no_package_of_ros():
         [sys.executable, '-c', code], env=environment, check=True, stdout=subprocess.PIPE
     )
     assert int(run.stdout) > 10_000
+
+
+def test_a_file_that_would_be_found_from_a_folder_below_is_said(tmp_path, monkeypatch):
+    """The line of a page, typed at the root of the checkout."""
+    monkeypatch.chdir(tmp_path)
+    asked = tmp_path / 'urdf' / 'rover[1].urdf'
+    assert hint_at(asked) == ''
+    for folder in ('examples/rover', 'mine'):
+        (tmp_path / folder / 'urdf').mkdir(parents=True)
+        (tmp_path / folder / 'urdf' / asked.name).touch()
+    assert hint_at(asked) == '; it is in mine and in examples/rover: cd mine'
+    with pytest.raises(DescriptionError, match=r'No such file or directory; it is in mine and'):
+        description_text(f'urdf/{asked.name}')
