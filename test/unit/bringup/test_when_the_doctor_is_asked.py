@@ -3,10 +3,15 @@
 """Of which failures of a start the doctor is asked for the cause."""
 
 import pytest
+from support.doctor_graphs import end, graph, topic
 
 from amr_description.bringup import Node
 from amr_description.bringup.diagnosis import Diagnosis, is_unexplained
 from amr_description.bringup.scheduler import Failure
+from amr_description.doctor.observations import Observations
+from amr_description.doctor.observations.graph import STAMPED_TWIST
+from amr_description.doctor.rules.topic_names import misnamed_topics
+from amr_description.nodes.start_failure import print_first_error
 
 NODE = Node('talker')
 FATAL = '[FATAL] [1.2] [create]: Entity creation failed'
@@ -59,3 +64,13 @@ def test_what_cannot_be_started_finds_nothing():
 
     diagnosis = Diagnosis(spawn)
     assert (diagnosis.is_over(), diagnosis.text) == (True, '')
+
+
+def test_a_graph_that_is_half_up_is_no_cause(capsys):
+    """A mux whose controller never came, beside another one that waits: no name is wrong there."""
+    commands = topic('/diff_drive_controller/cmd_vel', [end('/twist_mux', STAMPED_TWIST)])
+    waiting = topic('/cmd_vel', [], [end('/bridge', STAMPED_TWIST)])
+    seen = Observations(graph=graph(commands, waiting))
+    assert [each.severity.name for each in misnamed_topics(seen)] == ['ERROR']
+    assert not print_first_error(seen)
+    assert capsys.readouterr().out == ''
