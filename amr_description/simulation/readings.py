@@ -74,6 +74,7 @@ class Joints(dict[str, Joint]):
         raise SimulationError(
             f"no joint '{name}' has a state{did_you_mean(name, [*self])}; there are: "
             + ', '.join(self)
+            + '; <ros2_control> gives a joint one, by <state_interface name="position"/>'
         )
 
 

@@ -326,5 +326,7 @@ def test_a_joint_that_has_no_state_is_told_those_that_have(sim):
         SimulationError, match=r"no joint 'joint_wheel_front_lef' has a state; did"
     ):
         _ = sim.joints['joint_wheel_front_lef']
+    with pytest.raises(SimulationError, match=r'<ros2_control> gives a joint one, by <state_i'):
+        _ = sim.joints['a_mimic_that_is_in_the_urdf_alone']
     assert 'nothing' not in sim.joints
     assert sim.joints.get('nothing') is None
