@@ -28,6 +28,7 @@ read, its actions are visited in order, and each is translated into what a stack
 ``files_in_place.py``     a file of the package in place of a placeholder in its description
 ``translation.py``        actions -> nodes, conditions and handlers of a stack
 ``handling.py``           … and what happens at events
+``controller_spawners.py`` ``controller_manager.launch_utils``: descriptions that spawn controllers
 ``service.py``            LaunchService: descriptions run by a program beside other things
 ``counterparts.py``       packages that are not installed, and what takes their place
 ``gazebo_files.py``       launch files of ros_gz_sim, in whose place the simulator here is started

@@ -29,6 +29,7 @@ from amr_description.launch_api.including import (
 from amr_description.launch_api.modules import is_installed, understood
 from amr_description.launch_api.opened_files import note, recording
 from amr_description.launch_api.translation import translated
+from amr_description.stand_ins import hint_of_module
 from amr_description.text import suggestion
 
 
@@ -46,6 +47,7 @@ def launch_by_the_original(path: Path, words: Sequence[str], *, show: bool = Fal
 
     Raises:
         UsageError: an argument is malformed.
+        BringupError: it is installed, but not what it needs.
     """
     if not is_installed():
         return None
@@ -54,9 +56,15 @@ def launch_by_the_original(path: Path, words: Sequence[str], *, show: bool = Fal
         api = importlib.import_module('ros2launch.api')
         api.print_arguments_of_launch_file(launch_file_path=str(path))
         return 0
-    launch = importlib.import_module('launch')
-    sources = importlib.import_module('launch.launch_description_sources')
-    actions = importlib.import_module('launch.actions')
+    modules = ('launch', 'launch.launch_description_sources', 'launch.actions')
+    try:
+        launch, sources, actions = map(importlib.import_module, modules)
+    except ImportError as error:
+        hint = hint_of_module(error.name or '')
+        raise BringupError(
+            'the original launch is installed, and cannot be imported: '
+            + (f'{error}: {hint}' if hint else str(error))
+        ) from error
     include = actions.IncludeLaunchDescription(
         sources.AnyLaunchDescriptionSource(str(path)), launch_arguments=pairs
     )

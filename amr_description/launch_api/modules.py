@@ -247,6 +247,19 @@ def _names_in(module: str) -> Mapping[str, Any]:
     return UNDERSTOOD.get(module) or UNDERSTOOD.get(module.rpartition('.')[0]) or {}
 
 
+def _for_the_launch_of_now(module: str) -> dict[str, Any]:
+    """Return the names of a module; beside an original ``launch``, substitutions are its, too."""
+    names = dict(_names_in(module))
+    if module.partition('.')[0] in ('launch', 'launch_ros'):
+        return names
+    base = importlib.import_module('launch').Substitution
+    if base is not substitutions.Substitution:
+        for name, each in names.items():
+            if issubclass(each, substitutions.Substitution):
+                names[name] = type(name, (each, base), {})
+    return names
+
+
 class NotUnderstood:
     """Stands for a name that is not understood, until it is used."""
 
@@ -295,7 +308,7 @@ class _Finder(MetaPathFinder, Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         name = module.__name__
-        vars(module).update(_names_in(name))
+        vars(module).update(_for_the_launch_of_now(name))
         for other in UNDERSTOOD:  # as launch does: `import launch` gives `launch.actions`
             parent, _, last = other.rpartition('.')
             if parent == name:

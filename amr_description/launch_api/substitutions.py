@@ -13,7 +13,7 @@ import re
 import shlex
 import shutil
 import subprocess
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 import uuid
 
 from amr_description.ament_index import executable_of, hint_at, OWN_PACKAGE
@@ -76,7 +76,7 @@ def is_a_substitution(value: object) -> bool:
 
 def normalize_to_list_of_substitutions(subst: SomeSubstitutions) -> list[Substitution]:
     """Return texts and substitutions as a list of substitutions. Raises BringupError."""
-    if isinstance(subst, Substitution):
+    if _performs(subst):
         return [subst]
     if isinstance(subst, str | Path):
         return [TextSubstitution(text=str(subst))]
@@ -85,8 +85,13 @@ def normalize_to_list_of_substitutions(subst: SomeSubstitutions) -> list[Substit
     raise refusal(f'{subst!r} is no text, substitution or list of them')
 
 
+def _performs(value: object) -> TypeGuard[Substitution]:
+    """Return whether it is a substitution: one of ours, or of an original ``launch``."""
+    return not isinstance(value, type) and callable(getattr(value, 'perform', None))
+
+
 def _single(value: object) -> list[Substitution]:
-    if isinstance(value, Substitution | str | Path):
+    if isinstance(value, str | Path) or _performs(value):
         return normalize_to_list_of_substitutions(value)
     raise refusal(f'{value!r} in a list is no text and no substitution')
 

@@ -25,7 +25,7 @@ import shutil
 import sys
 from typing import Any
 
-from amr_description.ament_index import executable_of, OWN_PACKAGE, path_of
+from amr_description.ament_index import executable_of, OWN_PACKAGE, path_of, world_path
 from amr_description.bringup import handlers
 from amr_description.bringup.command_line import check_prefix
 from amr_description.bringup.conditions import (
@@ -90,10 +90,13 @@ from amr_description.stand_ins import INSTEAD_OF_PACKAGES
 
 _STEPS = ('create', 'spawner', 'unspawner', 'hardware_spawner')
 """What ends by itself soon, and is waited for."""
+_STAYS = {'-u', '--unload-on-kill'}
+"""With these a spawner does not."""
 _STEP_OF_ROS2 = re.compile(r'\bros2 +(action|control|lifecycle|param|service) ')
 """So do these commands; ``ros2 bag record`` does not."""
 _STEP: Mapping[str, Any] = {'required': False, 'on_exit': 'continue', 'timeout': math.inf}
 _READS_KEYS = 'teleop_twist_keyboard'
+_SIMULATOR = 'mujoco_sim'
 _SOON = 10.0
 """s; what starts later is not waited for until all is ready."""
 _LEVELS: Mapping[str, Level] = {
@@ -346,11 +349,10 @@ class Translation:
             self.started[action] = Started(None, self.when)
             return
         arguments = [text_of(context, each) for each in action.arguments]
+        if action.truth(context, action.shell, 'shell'):
+            arguments = shlex.split(' '.join(arguments))  # an empty one is none
         if other is not None:
-            arguments, lacking = arguments_as_ours(executable, arguments)
-            for words in lacking:
-                text = f"'{words}' of {package} {executable} is left out: it is not known here"
-                self.notes.append(('WARNING', text))
+            arguments = self._as_ours(package, executable, arguments)
             package, executable = OWN_PACKAGE, other.executable
         if action.ros_arguments:
             arguments += ['--ros-args', *(text_of(context, each) for each in action.ros_arguments)]
@@ -365,6 +367,8 @@ class Translation:
         for each in parameters:
             if isinstance(each, Path):
                 opened_files.note(str(path_of(str(each))))
+            elif executable == _SIMULATOR and isinstance(each, Mapping) and 'world' in each:
+                world_path(str(each['world']))  # before anything starts
         remappings = [(text_of(context, a), text_of(context, b)) for a, b in action.remappings]
         common = self._common(action)
         if package == OWN_PACKAGE and executable == _READS_KEYS and sys.stdin.isatty():
@@ -388,6 +392,14 @@ class Translation:
         ):
             made = self.started[action]
             self._change_state(_full_name(made.node), (CONFIGURE, ACTIVATE), made)
+
+    def _as_ours(self, package: str, executable: str, arguments: list[str]) -> list[str]:
+        """Return the arguments as ours takes them; note what it does not know."""
+        taken, lacking = arguments_as_ours(executable, arguments)
+        for words in lacking:
+            text = f"'{words}' of {package} {executable} is left out: it is not known here"
+            self.notes.append(('WARNING', text))
+        return taken
 
     def _note_counterpart(self, package: str, executable: str, other: Counterpart) -> None:
         name = executable if package == executable else f'{package} {executable}'
@@ -512,8 +524,11 @@ def _is_shutdown(on_exit: object) -> bool:
 
 
 def _is_step(node: NodeRef) -> bool:
-    command = ' '.join((isinstance(node, StackNode) and node.command) or ())
-    return node.executable in _STEPS or _STEP_OF_ROS2.search(command) is not None
+    if not isinstance(node, StackNode):
+        return node.executable in _STEPS
+    if node.executable in _STEPS:
+        return _STAYS.isdisjoint(node.arguments)
+    return _STEP_OF_ROS2.search(' '.join(node.command or ())) is not None
 
 
 def _starts_soon(node: StackNode) -> bool:

@@ -86,6 +86,8 @@ MODULES = {
     'ament_copyright': None,
     'ament_copyright.main': 'ament_copyright.main',
     'colcon_amr_description': 'workspace.colcon',
+    'controller_manager': None,
+    'controller_manager.launch_utils': 'launch_api.controller_spawners',
     'cv_bridge': 'ros_packages.cv_bridge',
     'diagnostic_updater': 'ros_packages.diagnostic_updater',
     'image_geometry': 'ros_packages.image_geometry',

@@ -35,7 +35,8 @@ FEW_LINES = 80
 # plugins, joints of no tag, early mecanum drives, controllers to do without, what stands on legs
 # or on what is below, meshes that take long); trials, robots to learn in; the page's graph, its
 # two threads as types, slow pages; a mux and passthrough in the chain; launch files (commands at
-# their time, joysticks, tried one by one, sources not built);
+# their time, joysticks, tried one by one, sources not built, functions that spawn controllers,
+# beside the original);
 # Python halves of C++ packages; what clients of Nav2 ask; bags of SQLite;
 # Python packages of ROS, with the many names of the originals:
 # nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations,
@@ -45,13 +46,13 @@ FEW_LINES = 80
 # helpers: fakes of processes, clients of markers, a base with a dock, evo and KISS-ICP, colours of
 # workers.
 BUDGETS = {
-    'modules': 875,
-    'code lines': 102_101,
+    'modules': 876,
+    'code lines': 102_219,
     'small modules of one importer beside them': 37,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 27_980,
+    'code lines of helpers in test files': 28_008,
 }
 
 BASE = {

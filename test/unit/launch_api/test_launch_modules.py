@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What launch files may import, that nothing stays of it, --show-args, and the original."""
 
+from pathlib import Path
 import sys
+from types import ModuleType, SimpleNamespace
 
 import ament_index_python.packages
 from fixtures.launch_files.packages import commands, first_in_the_index, install_package
@@ -10,7 +12,7 @@ import pytest
 
 from amr_description.errors import BringupError
 from amr_description.launch_api.launch_file import launch_by_the_original, LaunchFile
-from amr_description.launch_api.modules import is_installed, understood
+from amr_description.launch_api.modules import is_installed, provide, understood
 
 BEGIN = 'def generate_launch_description():\n    '
 
@@ -211,3 +213,40 @@ class LaunchService:
     assert written.read_text() == (
         f"[(('{tmp_path}/my.launch.py',), {{'launch_arguments': [('a', 'b')]}})]"
     )
+
+
+def test_an_original_that_cannot_be_imported_is_one_line(tmp_path, monkeypatch):
+    for name, text in {'launch': 'import lark', 'launch_ros': ''}.items():
+        (tmp_path / name).mkdir()
+        (tmp_path / name / '__init__.py').write_text(text)
+        monkeypatch.setitem(sys.modules, name, None)
+        del sys.modules[name]
+    monkeypatch.syspath_prepend(tmp_path)
+    with pytest.raises(BringupError, match=r"imported: No module named 'lark': pip install lark"):
+        launch_by_the_original(tmp_path / 'my.launch.py', [])
+
+
+def test_beside_the_original_rewritten_files_are_substitutions_of_it(tmp_path, monkeypatch):
+    class Original:
+        """What its Node takes."""
+
+    class Configuration(Original):
+        def perform(self, context):
+            return context.launch_configurations['file']
+
+    (tmp_path / 'p.yaml').write_text('a: {ros__parameters: {x: 1}}')
+    launch = ModuleType('launch')
+    launch.Substitution = Original
+    monkeypatch.setattr(sys, 'meta_path', [*sys.meta_path])
+    for module in (launch, ModuleType('nav2_common')):
+        monkeypatch.setitem(sys.modules, module.__name__, module)
+    monkeypatch.setitem(sys.modules, 'nav2_common.launch', None)
+    del sys.modules['nav2_common.launch']
+    sys.modules['nav2_common'].__path__ = []
+    provide('nav2_common')
+    from nav2_common.launch import RewrittenYaml
+
+    made = RewrittenYaml([Configuration()], {'x': '2'}, convert_types=True)
+    assert isinstance(made, Original)
+    context = SimpleNamespace(launch_configurations={'file': str(tmp_path / 'p.yaml')})
+    assert 'x: 2' in Path(made.perform(context)).read_text()

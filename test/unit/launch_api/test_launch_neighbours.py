@@ -21,6 +21,11 @@ from launch_ros.event_handlers import OnStateTransition
 from launch_ros.substitutions import FindPackageShare
 from launch_ros.events.lifecycle import ChangeState
 from lifecycle_msgs.msg import Transition
+from controller_manager.launch_utils import (
+    generate_controllers_spawner_launch_description as spawner_of,
+    generate_controllers_spawner_launch_description_from_dict as spawner_of_dict,
+    generate_load_controller_launch_description as spawner_of_one,
+)
 from ros_gz_bridge.actions import RosGzBridge
 from ros_gz_sim.actions import GzServer
 
@@ -113,7 +118,7 @@ def test_a_joystick_beside_the_robot_is_started_by_nodes_of_ours(launch):
 
 
 def test_what_is_mistyped_is_still_refused(launch):
-    with pytest.raises(BringupError, match=r"my.launch.py:1\d: package 'toyz' not found"):
+    with pytest.raises(BringupError, match=r"my.launch.py:2\d: package 'toyz' not found"):
         launch("Node(package='toyz', executable='a'),")
 
 
@@ -291,3 +296,55 @@ def test_actions_of_gazebo(launch):
     stack = launch("GzServer(world_sdf_file='empty.sdf'), RosGzBridge(bridge_name='x'),")
     assert [name for name, *_ in commands(stack)] == ['mujoco_sim-1']
     assert 'no bridge is needed here: its topics are of ROS' in notes(stack)
+
+
+def test_a_world_that_there_is_not_is_said_before_anything_starts(launch):
+    simulator = "package='amr_description', executable='mujoco_sim'"
+    with pytest.raises(BringupError, match=r"py:2\d: world 'rampe': .*did you mean ramp"):
+        launch(f"Node({simulator}, parameters=[{{'world': 'rampe'}}]),")
+
+
+MANAGER = '--controller-manager controller_manager'
+
+
+@pytest.mark.parametrize(
+    ('entity', 'words'),
+    [
+        ("spawner_of(['a', 'b'])", f'a b {MANAGER}'),
+        (
+            "spawner_of(('a',), [LaunchConfiguration('unload_on_kill'), None], ['--inactive'])",
+            f'a {MANAGER} --param-file false --inactive',
+        ),
+        ("GroupAction([spawner_of_one('a', 'p.yaml')])", f'a {MANAGER} --param-file p.yaml'),
+        ("spawner_of_one(controller_name='a', controller_params_file=None)", f'a {MANAGER}'),
+        (
+            "spawner_of_dict({'a': None, 'b': 'p.yaml', 'c': ['p.yaml', 'q']}, ['--load-only'])",
+            f'a b c {MANAGER} --param-file p.yaml --param-file p.yaml --param-file q --load-only',
+        ),
+        (
+            "SetLaunchConfiguration('unload_on_kill', 'true'), "
+            "SetLaunchConfiguration('controller_manager_name', '/r1/cm'), spawner_of_one('a')",
+            'a --controller-manager /r1/cm --unload-on-kill',
+        ),
+    ],
+)  # fmt: skip
+def test_controllers_are_spawned_as_by_functions_of_controller_manager(launch, entity, words):
+    stack = launch(f'{entity},')
+    assert [line for _, _, line in commands(stack)] == [f'spawner {words}']
+
+
+@pytest.mark.parametrize(
+    ('given', 'said'),
+    [
+        ("['a']", r"Invalid controller_info_dict type parsed \['a'\]"),
+        ("{'a': 1}", 'Invalid controller_params_file type parsed in the dict 1'),
+    ],
+)
+def test_what_is_no_table_of_controllers_is_said(launch, given, said):
+    with pytest.raises(BringupError, match=said):
+        launch(f'spawner_of_dict({given}),')
+
+
+def test_a_spawner_that_stays_to_unload_is_not_waited_for(launch):
+    stack = launch("SetLaunchConfiguration('unload_on_kill', 'true'), spawner_of(['a']),")
+    assert 'exited' not in str(stack.ready_when)
