@@ -10,6 +10,7 @@ discovered a client yet drops the response to it.
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
+import contextlib
 from typing import Any
 
 from controller_manager_msgs.srv import (
@@ -74,6 +75,8 @@ _CALL_TIMEOUT = 10.0
 _SIMULATOR_TIMEOUT = 60.0
 """s: a request may be for thousands of steps, or for a large robot."""
 _SWITCH_TIMEOUT = 5.0
+_QUERY_TIMEOUTS = (1.0, 2.0)
+"""s to wait for the first answers where what is asked changes nothing."""
 _MANAGER_TIMEOUT = 20.0
 _MANAGER_PERIOD = 0.1
 
@@ -409,6 +412,18 @@ def manager_service_types(manager: str) -> dict[str, type]:
     return {f'{manager}/{name}': each for name, each in _MANAGER_TYPES.items()}
 
 
+async def _query(services: ServiceClients, name: str, request: Any) -> Any:
+    """
+    As :meth:`ServiceClients.call`, of what changes nothing: it is asked again.
+
+    A server that has gone may still be taken for the one that has come in its place.
+    """
+    for timeout in _QUERY_TIMEOUTS:
+        with contextlib.suppress(UnansweredError):
+            return await services.call(name, request, timeout)
+    return await services.call(name, request)
+
+
 async def list_controllers(services: ServiceClients, manager: str, robot: str) -> Controllers:
     """Return the controllers and hardware of ``robot``'s manager. Raises ViewerError."""
     controllers = await services.call(f'{manager}/list_controllers', ListControllers.Request())
@@ -453,7 +468,7 @@ async def command_timeout(services: ServiceClients, service: str) -> float | Non
 
 async def active_controllers(services: ServiceClients, manager: str) -> list[str]:
     """Return the active controllers of a manager, in the order to activate them in."""
-    listed = await services.call(f'{manager}/list_controllers', ListControllers.Request())
+    listed = await _query(services, f'{manager}/list_controllers', ListControllers.Request())
     return [each.name for each in reversed(listed.controller) if each.state == 'active']
 
 
@@ -478,16 +493,14 @@ async def activate_controllers(
         ViewerError: the new manager is not there, or cannot activate one of them.
     """
     deadline = asyncio.get_running_loop().time() + _MANAGER_TIMEOUT
-    needed = [
-        f'{manager}/{name}' for name in ('list_controllers', 'load_controller', 'list_parameters')
-    ]
-    while not all(name in services for name in needed):
+    needed = 'list_controllers', 'load_controller', 'list_parameters'
+    while not all(f'{manager}/{name}' in services for name in needed):
         if asyncio.get_running_loop().time() > deadline:
             raise ViewerError(f'{manager} is not there after {_MANAGER_TIMEOUT:g} s')
         await asyncio.sleep(_MANAGER_PERIOD)
     if names is None:
         names = await _controllers_of_file(services, manager)
-    listed = await services.call(f'{manager}/list_controllers', ListControllers.Request())
+    listed = await _query(services, f'{manager}/list_controllers', ListControllers.Request())
     states = {each.name: each.state for each in listed.controller}
     for name in names:
         for step in _STEPS_FROM.get(states.get(name, ''), ()):
@@ -501,7 +514,7 @@ async def activate_controllers(
 
 async def _controllers_of_file(services: ServiceClients, manager: str) -> list[str]:
     """Return the controllers that a manager has parameters of, which name their types."""
-    response = await services.call(f'{manager}/list_parameters', ListParameters.Request())
+    response = await _query(services, f'{manager}/list_parameters', ListParameters.Request())
     names = [each.split('.') for each in response.result.names]
     return [name for name, *rest in names if rest == ['type']]
 

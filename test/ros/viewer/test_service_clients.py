@@ -23,6 +23,7 @@ from amr_description.viewer.ros.service_clients import (
     activate_controllers,
     command_timeout,
     ServiceClients,
+    UnansweredError,
 )
 
 ASKED = ['cmd_vel_timeout', 'reference_timeout']
@@ -120,3 +121,21 @@ def test_of_a_robot_that_nobody_knows_any_more_all_controllers_of_the_file_are_a
     names = asyncio.run(activate_controllers(manager, '/robot1/controller_manager', None))
     assert names == ['drive', 'joints']
     assert manager.states == {'drive': 'active', 'joints': 'active'}
+
+
+class LateManager(Manager):
+    """What has asked for it first has taken the one before it for it."""
+
+    is_late = True
+
+    async def call(self, name, request, timeout=0.0):
+        if self.is_late:
+            self.is_late = False
+            raise UnansweredError(name)
+        return await super().call(name, request, timeout)
+
+
+def test_the_manager_that_has_come_in_place_of_another_is_asked_again():
+    manager = LateManager()
+    asyncio.run(activate_controllers(manager, '/robot1/controller_manager', ['drive']))
+    assert manager.states == {'drive': 'active'}

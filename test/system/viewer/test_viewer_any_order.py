@@ -119,12 +119,8 @@ class AnyOrder(RuleBasedStateMachine):
     @precondition(lambda self: self.entities)
     @rule(world=st.sampled_from(['walls', 'empty']))
     def change_the_world(self, world):
-        before = len(self.page.of('controllers'))
         assert self.ask.simulator('load_world', name=world)[0]
         self.page.wait(lambda: simulators(self.page)[0]['world'] == world)
-        # They went and came again, which is told.
-        told = before + len(self.entities)
-        self.page.wait(lambda: len(self.page.of('controllers')) > told)
         self.page.wait(lambda: all(map(self.is_at_home, self.entities)))
         self.settled()
 
@@ -177,4 +173,4 @@ def test_what_a_page_does_to_a_robot_is_done_to_that_one(page):
     AnyOrder.page, AnyOrder.ask = page, Asker(page)
     assert page.last('graph')['simulators'][0]['id'] == SIMULATOR
     once = {'phases': [Phase.generate], 'report_multiple_bugs': False}  # time goes on
-    run_state_machine_as_test(AnyOrder, settings=examples(2, stateful_step_count=10, **once))
+    run_state_machine_as_test(AnyOrder, settings=examples(1, stateful_step_count=12, **once))
