@@ -152,11 +152,6 @@ class BagWriter:
         """Of all files."""
         return self.metadata.message_count
 
-    @property
-    def file_size(self) -> int:
-        """Bytes of the file that is written to, with those that wait for their chunk."""
-        return self._file.size if self._file else 0
-
     def add_topic(self, topic: TopicMetadata, schema: str | None = None) -> None:
         """
         Declare a topic, or change its QoS in the files that follow.

@@ -22,11 +22,6 @@ def actions(node: Node) -> list[tuple[str, list[str]]]:
     return sorted(get_action_names_and_types(node))
 
 
-def types_of_action(node: Node, action: str) -> list[str]:
-    """Return the types of an action, given by its absolute name; none if it is not there."""
-    return dict(get_action_names_and_types(node)).get(action, [])
-
-
 def clients_of(node: Node, action: str) -> ActionEndpoints:
     """Return the clients of an action, given by its absolute name."""
     return _endpoints(node, action, get_action_client_names_and_types_by_node)
