@@ -181,12 +181,12 @@ def begin_worker(config, number):
 
 def suitable_workers(config):
     """
-    How many processes ``--workers=auto`` is: six for two cores, as they wait for others most of
+    How many processes ``--workers=auto`` is: five for two cores, as they wait for others half of
     the time. What is in ``test/unit`` waits for nobody: one for each core.
     """
     paths = [(config.invocation_params.dir / arg.split('::')[0]) for arg in config.args]
     is_waiting = not all(path.resolve().is_relative_to(UNIT) for path in paths)
-    return len(os.sched_getaffinity(0)) * (3 if is_waiting else 1)
+    return len(os.sched_getaffinity(0)) * (5 if is_waiting else 2) // 2
 
 
 @pytest.hookimpl(tryfirst=True)  # pytest then brings together what shares a costly parameter

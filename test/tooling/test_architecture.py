@@ -43,8 +43,8 @@ FEW_LINES = 80
 # diagnostic_updater, rosbag2_py (four of its names are also the bag's), launch_testing (14
 # modules), urdf_parser_py (15 of its names are also the model's), image_geometry, ros2node.api,
 # interactive_markers, turtlebot4_navigation; what RViz draws (markers, poses), on the page. Of
-# helpers: fakes of processes, clients of markers, a base with a dock, evo and KISS-ICP, colours of
-# workers.
+# helpers: fakes of processes, of a late manager, clients of markers, a base with a dock, evo and
+# KISS-ICP, colours of workers.
 BUDGETS = {
     'modules': 876,
     'code lines': 102_219,
@@ -52,7 +52,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 28_008,
+    'code lines of helpers in test files': 28_029,
 }
 
 BASE = {

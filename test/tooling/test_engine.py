@@ -70,8 +70,6 @@ def test_a_part_of_the_tests_runs_there(monkeypatch):
     """All of it: ``scripts/test engine``, which is a job of its own in CI."""
     monkeypatch.delenv('PYTEST_ADDOPTS', raising=False)  # colcon's, for this run
     parts = [
-        'test/unit/simulation/test_in_process.py',
-        'test/unit/simulation/test_recorded_run.py',
         'test/unit/control/test_loop.py',
         'test/unit/base/test_gym.py',
     ]

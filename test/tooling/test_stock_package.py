@@ -162,6 +162,7 @@ def results(workspace, package):
     }
 
 
+@pytest.mark.long
 def test_tests_of_a_stock_package_run_and_pass(tested):
     workspace, done = tested
     assert results(workspace, 'stock') == {

@@ -66,6 +66,7 @@ def operator():
     rclpy.try_shutdown()
 
 
+@pytest.mark.long
 def test_the_robot_outlives_all_that_it_does_not_stand_on(tmp_path, operator):
     prefix = os.environ['AMENT_PREFIX_PATH']
     with Bringup(tmp_path, 'navigation', AMENT_PREFIX_PATH=prefix) as stack:

@@ -87,7 +87,7 @@ STACKS = [
     'navigation',
     pytest.param('mock', marks=LONG),  # likewise
     'serial',
-    'fleet',
+    pytest.param('fleet', marks=LONG),  # likewise
 ]
 
 

@@ -28,7 +28,7 @@ from amr_description.ros.service_calls import wait_until
 
 SEED = 'AMR_FUZZ_SEED'
 """Environment variable: the seed of a run that is to be repeated."""
-SHORT, LONG = 10.0, 600.0
+SHORT, LONG = 4.0, 600.0
 """s"""
 MOST_SILENT = 10.0
 """s, for the clock and for an answer, on a machine that is busy; on a quiet one below 0.4 s."""

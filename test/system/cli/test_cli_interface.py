@@ -140,6 +140,7 @@ def test_fields_of_messages_are_recognised(line, found):
     assert message_type_of(line, 'toy_msgs') == found
 
 
+@pytest.mark.long
 def test_every_definition_that_is_installed_can_be_shown():
     shown = 0
     for package, names in all_interfaces().items():

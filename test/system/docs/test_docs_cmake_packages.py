@@ -4,6 +4,7 @@
 
 import re
 
+import pytest
 from support.doc_pages import Page
 from support.shells import newcomer
 
@@ -40,6 +41,7 @@ def mesh():
     return f'solid base\n{facets}endsolid base\n'
 
 
+@pytest.mark.long
 def test_a_description_of_ament_cmake(tmp_path):
     source = tmp_path / 'ros2_ws/src'
     source.mkdir(parents=True)

@@ -32,6 +32,7 @@ def typed(beginning, cwd):
     return run(*shlex.split(line)[1:], cwd=cwd)
 
 
+@pytest.mark.long
 def test_the_trial_finds_the_fault_and_a_line_of_its_report_repeats_it(tmp_path):
     (tmp_path / 'dock.py').write_text(TRIAL)
     done = typed(FIRST, tmp_path)

@@ -46,6 +46,7 @@ def write_messages(source):
         (package / file).write_text(text.replace(before, f'{added}\n{before}'))
 
 
+@pytest.mark.long
 def test_a_message_of_ones_own(tmp_path):
     need_compiler()
     source = tmp_path / 'ros2_ws/src'

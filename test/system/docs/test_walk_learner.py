@@ -126,6 +126,7 @@ ros2 param get /robot_state_publisher robot_description
 """
 
 
+@pytest.mark.long
 def test_the_tutorials_own_package(home, tutorials_package):
     """Its launch files, too, which import ``launch`` and ``launch_ros``."""
     with newcomer(TUTORIAL, home, activate='') as shell:

@@ -70,6 +70,7 @@ def robot(home):
         shell.see(re.escape(PROMPT))
 
 
+@pytest.mark.long
 def test_the_sliders(robot):
     assert robot.sliders.startswith('http://127.0.0.1:')
 

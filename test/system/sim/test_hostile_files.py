@@ -93,6 +93,7 @@ def write(open_path):
     return write
 
 
+@pytest.mark.long
 def test_an_expression_without_end_is_ended(client, write):
     reason = client.refused(uri=write(ENDLESS))
     # After 10 s of a processor; where others leave it less than a sixth of one, after a minute.

@@ -315,41 +315,47 @@ GOOD = {
 FAR = Transform((0.0, 2.0, 0.0))
 FAULTS = [
     {'rate': 0},
-    {'rate': "'fast'"},
-    {'rate': -5},
     {'type': 'diff_drive_controller/DiffDriveControler'},
     {'type': 'no_such_package/Nothing'},
+    {'left': '[no_such_joint]'},
+    {'separation': "'wide'"},
+    {'radius': 'nan'},
+    {'more': 'publish_rate: -1.0'},
+    {'more': 'wheel_radus: 0.2'},
+    {'more': '- a list'},
+    {'rate': "'fast'"},
+    {'rate': -5},
     {'type': 'no.such.module/Nothing'},
     {'type': "''"},
     {'left': '[]'},
     {'left': 'joint_wheel_front_left'},
-    {'left': '[no_such_joint]'},
     {'left': '[1, 2]'},
     {'separation': 0.0},
-    {'separation': "'wide'"},
     {'separation': 300.0, 'radius': -0.1},
-    {'radius': 'nan'},
     {'radius': 'yes'},
-    {'more': 'publish_rate: -1.0'},
     {'more': 'odom_frame_id: 7'},
     {'more': 'position_feedback: maybe'},
-    {'more': 'wheel_radus: 0.2'},
     {'more': 'pose_covariance_diagonal: [1.0]'},
     {'more': "open_loop: 'true'"},
     {'more': 'cmd_vel_timeout: [1]'},
     {'more': 'linear.x.max_velocity: -1.0'},
-    {'more': '- a list'},
     {'more': 'tab:\t{{'},
 ]
 
 
+USUAL = 8
 ONLY_THE_DRIVE, ALL_THAT_CAN_BE = ['diff_drive_controller'], None
 
 
 @pytest.mark.parametrize(
     ('fault', 'wanted'),
     # In turn: what is said of a file hangs on neither.
-    [*zip(FAULTS, itertools.cycle([ONLY_THE_DRIVE, ALL_THAT_CAN_BE]), strict=False)],
+    [
+        pytest.param(fault, wanted, marks=[pytest.mark.long] if number > USUAL else [])
+        for number, (fault, wanted) in enumerate(
+            zip(FAULTS, itertools.cycle([ONLY_THE_DRIVE, ALL_THAT_CAN_BE]), strict=False)
+        )
+    ],
     ids=str,
 )
 def test_a_file_of_controllers_is_refused_in_the_same_words(tmp_path, fault, wanted):

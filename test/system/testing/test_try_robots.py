@@ -6,6 +6,7 @@ import json
 import shutil
 import sys
 
+import pytest
 from support.paths import ROOT
 from support.running_programs import Program
 
@@ -55,6 +56,7 @@ trajectories:
 """
 
 
+@pytest.mark.long
 def test_joints_behind_a_chain_of_passthrough_controllers_follow_a_trajectory(tmp_path):
     file, report = tmp_path / 'arm.urdf', tmp_path / 'report.json'
     joints = ''.join(
@@ -75,6 +77,7 @@ def test_joints_behind_a_chain_of_passthrough_controllers_follow_a_trajectory(tm
     assert '1 moved as told' in program.output
 
 
+@pytest.mark.long
 def test_an_arm_of_plugins_is_moved_by_their_topics(tmp_path):
     file, report = tmp_path / 'arm.urdf', tmp_path / 'report.json'
     file.write_text(ARM)

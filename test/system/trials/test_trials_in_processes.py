@@ -97,6 +97,7 @@ def test_the_first_failures_are_recorded_and_have_to_repeat(tmp_path, monkeypatc
     assert 'it depends on more than its seed' in str(once)
 
 
+@pytest.mark.long
 def test_the_printed_line_fails_in_the_same_step_with_the_same_bits(tmp_path):
     done = command('drives:slippery', '--seeds', 3, '-o', tmp_path / 'out')
     assert done.returncode == 1, done.stderr
@@ -116,6 +117,7 @@ def test_the_printed_line_fails_in_the_same_step_with_the_same_bits(tmp_path):
         assert failed.message.split(':')[0] in (tmp_path / 'out' / name).read_text()
 
 
+@pytest.mark.long
 def test_shards_are_judged_together(tmp_path, capsys):
     whole = command('drives:slippery', '--seeds', 3, '--at-least', 0.0, '-o', tmp_path / 'whole')
     for number in (1, 2):

@@ -163,6 +163,7 @@ def test_a_page_records_and_another_one_stops(browser, graph_viewer, bags):
         assert sum(1 for _ in reader.messages(['/chatter'])) > 20
 
 
+@pytest.mark.long
 def test_a_drive_that_is_trimmed_and_played_is_seen(browser, graph_viewer, drive, tmp_path):
     begin, length = PART
     part = tmp_path / 'part'

@@ -86,6 +86,7 @@ def test_a_package_without_a_python_half_is_refused_as_before(workspace):
     assert "mixed_pkg needs 'no_such_library' (find_package, CMakeLists.txt:5)" in built.stderr
 
 
+@pytest.mark.long
 def test_what_the_python_half_itself_lacks_ends_the_build(workspace):
     rules = RULES.replace('(mixed_py)', '(mixed_py PACKAGE_DIR nowhere)')
     built = workspace(rules)

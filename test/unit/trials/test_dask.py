@@ -4,7 +4,7 @@
 Trials on a cluster: a real scheduler of Dask, and two workers, one of which is killed.
 
 Dask is there where the engine is tested without ROS (``scripts/test engine``), and need not be
-elsewhere: then it has to be said.
+elsewhere: then it is said what would do.
 """
 
 from contextlib import ExitStack
@@ -28,6 +28,7 @@ from amr_description.trials.runner import trials
 FILE = ROOT / 'test' / 'fixtures' / 'trials' / 'drives.py'
 HAS_DASK = find_spec('distributed') is not None
 PATIENCE = 120.0
+pytestmark = pytest.mark.skipif(not HAS_DASK, reason='with Dask, by scripts/test engine')
 
 
 def start(program, *words):
@@ -39,9 +40,6 @@ def start(program, *words):
 @pytest.fixture
 def cluster(tmp_path):
     """Address of a scheduler on this host, and two workers with a thread each."""
-    if not HAS_DASK:
-        yield 'tcp://127.0.0.1:1', []
-        return
     file, local = tmp_path / 'scheduler.json', ['--host', '127.0.0.1', '--no-dashboard']
     started = [start('scheduler', *local, '--port', '0', '--scheduler-file', str(file))]
     one_thread = ['--no-nanny', '--nthreads', '1', '--local-directory', str(tmp_path)]
@@ -74,13 +72,10 @@ def in_cluster(cluster, name, *, killed=(), **options):
                 worker.kill()
 
     with ExitStack() as stack:
-        if not HAS_DASK:
-            stack.enter_context(pytest.raises(TrialsError, match='--dask needs Dask: python -m p'))
         executor = dask_executor(cluster[0], stack)
         report = trials(trial, executor=executor, progress=kill, **options)
         assert has_killed.is_set()
-        return alone, report
-    return alone, alone
+    return alone, report
 
 
 def test_a_worker_that_is_killed_loses_no_run_and_counts_none_twice(cluster):
@@ -89,9 +84,8 @@ def test_a_worker_that_is_killed_loses_no_run_and_counts_none_twice(cluster):
     assert len(report.runs) == 60
     assert report.to_json(times=False) == alone.to_json(times=False)
     assert report.digest == alone.digest
-    if HAS_DASK:
-        assert cluster[1][0].wait(PATIENCE) == -9
-        assert cluster[1][1].poll() is None
+    assert cluster[1][0].wait(PATIENCE) == -9
+    assert cluster[1][1].poll() is None
 
 
 def test_a_run_that_hangs_there_is_ended_and_the_others_go_on(cluster):
@@ -100,12 +94,11 @@ def test_a_run_that_hangs_there_is_ended_and_the_others_go_on(cluster):
 
 
 def test_nobody_at_an_address_is_said():
-    if HAS_DASK:
-        import dask
+    import dask
 
-        with (
-            dask.config.set({'distributed.comm.timeouts.connect': '0.2s'}),
-            ExitStack() as stack,
-            pytest.raises(TrialsError, match='no scheduler of Dask answers at tcp://127.0.0.1:1'),
-        ):
-            dask_executor('tcp://127.0.0.1:1', stack)
+    with (
+        dask.config.set({'distributed.comm.timeouts.connect': '0.2s'}),
+        ExitStack() as stack,
+        pytest.raises(TrialsError, match='no scheduler of Dask answers at tcp://127.0.0.1:1'),
+    ):
+        dask_executor('tcp://127.0.0.1:1', stack)
