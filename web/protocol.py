@@ -37,6 +37,7 @@ from typing import Any
 
 from amr_description.viewer import (
     bags,
+    forms,
     introspection,
     marks,
     navigation,
@@ -46,7 +47,7 @@ from amr_description.viewer import (
     states,
 )
 
-MESSAGES = (protocol, introspection, marks, navigation, bags, requests)
+MESSAGES = (protocol, introspection, forms, marks, navigation, bags, requests)
 """Modules whose dataclasses and types are in text frames, or in the heads of binary ones."""
 BINARY = (states, samples)
 """Modules of binary frames: their constants alone are for the page."""

@@ -16,6 +16,7 @@ The server of the browser page, without ROS; the only package that imports webso
 ``protocol.py``     messages to pages; ``web/src/protocol.ts`` is written from them
 ``encoding.py``     … as text frames
 ``introspection.py`` … about the ROS graph itself
+``forms.py``        … about services that are called, goals that are sent
 ``marks.py``        … about what is drawn
 ``navigation.py``   … about who navigates, and the goals of pages
 ``bags.py``         … about a bag that is shown, and one that is recorded

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """
 Messages to pages about the ROS graph itself, and what requests about it are answered: topics,
-transforms, the log, parameters, and the fields of messages.
+transforms, the log, parameters.
 """
 
 from collections.abc import Mapping
@@ -118,15 +118,3 @@ class ParameterInfo:
     lower: float | None  #: of a number with a range
     upper: float | None
     step: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class FieldInfo:
-    """A field of a message: what ``definition`` is answered, for each field."""
-
-    name: str
-    kind: str  #: "double", "string", or the type of a message: "geometry_msgs/msg/Vector3"
-    #: of an array its length, 0 for any; ``None``: it is none
-    length: int | None
-    fields: 'tuple[FieldInfo, ...]'  #: of a message
-    value: Any  #: the default, of what is neither a message nor an array

@@ -168,6 +168,11 @@ class Pages:
         """Send a message, about nothing that has a name, to the pages that are connected now."""
         self._send(message, '', encode(message), self._pages.values())
 
+    def tell(self, name: str, message: ServerMessage) -> None:
+        """Send a message to one page, if it is there still."""
+        if (page := self._pages.get(name)) is not None:
+            page.send_message(message)
+
     def send_to(self, part: Part, message: ServerMessage) -> None:
         """Send a message to the pages that watch a part."""
         watching = [each for each in self._pages.values() if part in each.watched.parts]

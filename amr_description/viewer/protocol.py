@@ -19,6 +19,7 @@ from typing import Any, ClassVar, Literal, TypeAlias
 
 from amr_description.model.frames import Quaternion, Vector
 from amr_description.viewer.bags import BagWriting, Playhead, Recording
+from amr_description.viewer.forms import GoalProgress, Services
 from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
 from amr_description.viewer.marks import MarkBatch, MarkText, Shape
 from amr_description.viewer.navigation import GoalStatus, Navigator
@@ -575,6 +576,8 @@ ServerMessage: TypeAlias = (
     | Reply
     | Notice
     | Topics
+    | Services
+    | GoalProgress
     | Transforms
     | Log
     | Findings
@@ -585,7 +588,7 @@ ServerMessage: TypeAlias = (
 )
 """A text frame from the node."""
 REPLACED: frozenset[type[ServerMessage]] = frozenset({
-    Graph, Model, World, Layout, SimulationStatus, Controllers, Diagnostics, Commanders,
+    Graph, Model, World, Layout, SimulationStatus, Controllers, Diagnostics, Commanders, Services,
     EmergencyStop, Ages, Topics, Transforms, Findings, GoalStatus, Recording, Playhead, BagWriting,
 })  # fmt: skip
 """

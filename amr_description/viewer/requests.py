@@ -15,6 +15,7 @@ from amr_description.errors import ProtocolError
 from amr_description.model.frames import Vector
 from amr_description.text import quote
 from amr_description.viewer.bags import BagRequest
+from amr_description.viewer.forms import CallRequest
 from amr_description.viewer.protocol import FrameInfo, RobotLayout
 
 _LARGEST_ID = 2**53  # up to here JavaScript's numbers are exact integers
@@ -32,7 +33,9 @@ Rate: TypeAlias = Annotated[float, 'rate']
 """Hz; its own type, because more than 100, or less than 0, is refused."""
 Document: TypeAlias = Annotated[str, 'document']
 """A text of any lines."""
-Part: TypeAlias = Literal['wheels', 'topics', 'rates', 'transforms', 'log', 'findings', 'alarms']
+Part: TypeAlias = Literal[
+    'wheels', 'topics', 'services', 'rates', 'transforms', 'log', 'findings', 'alarms'
+]
 """
 What the node collects only while a page shows it: a part of the states (wheels), or a message of
 the same name; ``rates`` are those of ``topics``.
@@ -280,11 +283,11 @@ class DeactivateDrive:
 
 @dataclass(frozen=True, slots=True)
 class Definition:
-    """Ask what a message has: FieldInfo of each field."""
+    """Ask what a message, a request of a service or a goal has: FieldInfo of each field."""
 
     types: ClassVar[tuple[str, ...]] = ('definition',)
     id: int
-    message: str  #: its type: "geometry_msgs/msg/Twist"
+    message: str  #: the type of it, or of the service or action: "geometry_msgs/msg/Twist"
 
 
 @dataclass(frozen=True, slots=True)
@@ -403,6 +406,7 @@ Request: TypeAlias = (
     | CancelGoal
     | SetInitialPose
     | BagRequest
+    | CallRequest
 )
 """Messages with an ``id``, which get a reply."""
 ClientMessage: TypeAlias = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request

@@ -18,6 +18,7 @@ from support.paths import ROOT
 from amr_description.errors import ViewerError
 from amr_description.viewer.backend import Answer
 from amr_description.viewer.description import describe_robot
+from amr_description.viewer.forms import CallInfo, FieldInfo, Services
 from amr_description.viewer.introspection import (
     Endpoint,
     FindingInfo,
@@ -50,7 +51,7 @@ from amr_description.viewer.protocol import (
     SimulationStatus,
     SimulatorInfo,
 )
-from amr_description.viewer.requests import ListParameters
+from amr_description.viewer.requests import Definition, ListParameters
 from amr_description.viewer.server import Server, ServerSettings
 from amr_description.viewer.states import StateFrame
 
@@ -213,11 +214,12 @@ def simulation(*, wheels=True):
         ages=Ages(0.0, 0.0, (RobotAges('/', 0.0, 0.0, 0.0, 0.0),)),
         latest={
             'topics': TOPICS,
+            'services': SERVICES,
             'transforms': TRANSFORMS,
             'log': LOG,
             'findings': DOCTOR,
         },
-        answers={ListParameters: PARAMETERS},
+        answers={ListParameters: PARAMETERS, Definition: FORM},
     )
 
 
@@ -267,6 +269,32 @@ def _topic(name, kind, publishers, subscriptions=(), rate=None):
     return TopicInfo(name, (kind,), *ends, rate)
 
 
+SERVICES = Services(
+    tuple(
+        CallInfo(name, kind, '/action/' in kind)
+        for name, kind in (
+            ('/arm/follow_joint_trajectory', 'control_msgs/action/FollowJointTrajectory'),
+            ('/controller_manager/get_parameters', 'rcl_interfaces/srv/GetParameters'),
+            (
+                '/controller_manager/list_controllers',
+                'controller_manager_msgs/srv/ListControllers',
+            ),
+            ('/mujoco_sim/set_simulation_state', 'simulation_interfaces/srv/SetSimulationState'),
+        )
+    )
+)
+FORM = (
+    FieldInfo(
+        'state',
+        'simulation_interfaces/msg/SimulationState',
+        None,
+        (FieldInfo('state', 'uint8', None, (), 0, {'STATE_STOPPED': 0, 'STATE_PLAYING': 1}),),
+        None,
+        {},
+    ),
+    FieldInfo('names', 'string', 0, (), None, {}),
+    FieldInfo('stamp', 'builtin_interfaces/msg/Time', None, (), None, {}),
+)
 TOPICS = Topics(
     ('/controller_manager', DRIVE, '/mujoco_sim', '/robot_state_publisher', '/viewer'),
     (

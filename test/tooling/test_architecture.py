@@ -42,17 +42,17 @@ FEW_LINES = 80
 # nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations,
 # diagnostic_updater, rosbag2_py (four of its names are also the bag's), launch_testing (14
 # modules), urdf_parser_py (15 of its names are also the model's), image_geometry, ros2node.api,
-# interactive_markers, turtlebot4_navigation; what RViz draws (markers, poses), on the page. Of
-# helpers: fakes of processes, of a late manager, clients of markers, a base with a dock, evo and
-# KISS-ICP, colours of workers.
+# interactive_markers, turtlebot4_navigation; what RViz draws (markers, poses), forms of services
+# and actions, on the page. Of helpers: a host of both, fakes of processes, of a late manager,
+# clients of markers, a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
-    'modules': 876,
-    'code lines': 102_219,
+    'modules': 880,
+    'code lines': 102_581,
     'small modules of one importer beside them': 37,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 28_029,
+    'code lines of helpers in test files': 28_127,
 }
 
 BASE = {

@@ -23,6 +23,7 @@ import { logPanel } from './panels/log';
 import { findingsToLookAt, modelPanel } from './panels/model';
 import { parametersPanel } from './panels/parameters';
 import { sensorsPanel } from './panels/sensors';
+import { servicesPanel } from './panels/services';
 import { simulationPanel } from './panels/simulation';
 import { topicsPanel } from './panels/topics';
 import { PlotsPanel } from './plots/panel';
@@ -85,6 +86,7 @@ for (const panel of [
   controlPanel(app),
   healthPanel(app),
   topicsPanel(app, plots),
+  servicesPanel(app),
   logPanel(app),
   parametersPanel(app),
   graphPanel(app),

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-// Written by web/protocol.py from protocol.py, introspection.py, marks.py, navigation.py, bags.py, requests.py, states.py, samples.py in
+// Written by web/protocol.py from protocol.py, introspection.py, forms.py, marks.py, navigation.py, bags.py, requests.py, states.py, samples.py in
 // amr_description/viewer/; change those and run it: python web/protocol.py
 
 /**
@@ -564,6 +564,8 @@ export type ServerMessage =
   | Reply
   | Notice
   | Topics
+  | Services
+  | GoalProgress
   | Transforms
   | Log
   | Findings
@@ -574,7 +576,7 @@ export type ServerMessage =
 
 /**
  * Messages to pages about the ROS graph itself, and what requests about it are answered: topics,
- * transforms, the log, parameters, and the fields of messages.
+ * transforms, the log, parameters.
  */
 
 /** A publisher of a topic, or a subscription. */
@@ -684,7 +686,13 @@ export interface ParameterInfo {
   step: number | null;
 }
 
-/** A field of a message: what `definition` is answered, for each field. */
+/**
+ * Messages about what pages send by forms: their fields, services that are called, goals of actions.
+ *
+ * What is published by forms is in `requests.py`.
+ */
+
+/** A field of what is sent: what `definition` is answered, for each field. */
 export interface FieldInfo {
   name: string;
   /** "double", "string", or the type of a message: "geometry_msgs/msg/Vector3" */
@@ -695,7 +703,71 @@ export interface FieldInfo {
   fields: FieldInfo[];
   /** the default, of what is neither a message nor an array */
   value: unknown;
+  /** by name, those of the message that may be its value */
+  constants: Record<string, unknown>;
 }
+
+/** A service or an action that somebody serves. */
+export interface CallInfo {
+  name: string;
+  /** its type: "std_srvs/srv/Trigger" */
+  kind: string;
+  is_action: boolean;
+}
+
+/** All services and actions, to pages that watch `services`, and on every change. */
+export interface Services {
+  type: 'services';
+  services: CallInfo[];
+}
+
+/** How a goal goes that this page has sent by `send_goal`: to that page alone. */
+export interface GoalProgress {
+  type: 'goal_progress';
+  /** the id of that request */
+  goal: number;
+  state: 'active' | 'succeeded' | 'canceled' | 'aborted' | 'lost';
+  /** YAML: the latest feedback, at the end the result; of a lost one, why it is */
+  text: string;
+}
+
+/** Call a service: the data of the reply are its response, in YAML. */
+export interface CallService {
+  type: 'call_service';
+  id: number;
+  service: string;
+  /** its type: "std_srvs/srv/SetBool" */
+  kind: string;
+  /** as those of `publish` */
+  values: Record<string, unknown>;
+}
+
+/**
+ * Send a goal to an action; the reply tells that it is accepted, GoalProgress how it goes.
+ *
+ * It is cancelled when this page ends, and by STOP of the robot in whose namespace the action is;
+ * while that stop holds it is refused.
+ */
+export interface SendGoal {
+  type: 'send_goal';
+  id: number;
+  action: string;
+  /** its type: "nav2_msgs/action/NavigateToPose" */
+  kind: string;
+  /** as those of `publish` */
+  values: Record<string, unknown>;
+}
+
+/** Cancel a goal that this page has sent. */
+export interface CancelSent {
+  type: 'cancel_sent';
+  id: number;
+  /** the id of the request that sent it */
+  goal: number;
+}
+
+/** What services and actions are asked. */
+export type CallRequest = CallService | SendGoal | CancelSent;
 
 /** What is drawn: the shapes of a world, and of what others draw the parts of a head. */
 
@@ -932,7 +1004,8 @@ export const MOST_FIELDS = 256;
  * What the node collects only while a page shows it: a part of the states (wheels), or a message of
  * the same name; `rates` are those of `topics`.
  */
-export type Part = 'wheels' | 'topics' | 'rates' | 'transforms' | 'log' | 'findings' | 'alarms';
+export type Part =
+  | 'wheels' | 'topics' | 'services' | 'rates' | 'transforms' | 'log' | 'findings' | 'alarms';
 
 /**
  * Drive a robot, with the keyboard, the joystick or a gamepad, at most 60 times per second.
@@ -1153,11 +1226,11 @@ export interface DeactivateDrive {
   robot: string;
 }
 
-/** Ask what a message has: FieldInfo of each field. */
+/** Ask what a message, a request of a service or a goal has: FieldInfo of each field. */
 export interface Definition {
   type: 'definition';
   id: number;
-  /** its type: "geometry_msgs/msg/Twist" */
+  /** the type of it, or of the service or action: "geometry_msgs/msg/Twist" */
   message: string;
 }
 
@@ -1280,7 +1353,8 @@ export type Request =
   | SetGoal
   | CancelGoal
   | SetInitialPose
-  | BagRequest;
+  | BagRequest
+  | CallRequest;
 
 /** A text frame from a page. */
 export type ClientMessage = Drive | Stop | PressStop | Release | SetJoints | Push | Watch | Request;

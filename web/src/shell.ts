@@ -134,7 +134,7 @@ export function arrange({ store }: App, { view, drive, plots, tabs, workspace }:
     body.classList.toggle('paused', simulation?.state === 'paused');
     tabs.setHidden('simulation', robot !== null && simulator === null);
     tabs.setHidden('control', robot !== null && robot.manager === null);
-    for (const id of ['health', 'parameters', 'graph']) {
+    for (const id of ['health', 'services', 'parameters', 'graph']) {
       tabs.setHidden(id, recording !== null); // nodes are not in a bag
     }
     if (robot !== null) {

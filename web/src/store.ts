@@ -8,8 +8,9 @@
  */
 import { batch, effect, signal, untracked, type Signal } from '@preact/signals';
 import type {
-  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, EntityInfo, Findings, GoalStatus, Graph, Hello, Layout, LogLine,
-  Model, Notice, Playhead, Recording, RobotInfo, ServerMessage, SimulationStatus, SimulatorInfo, Topics, Transforms, World,
+  BagWriting, Commanders, Controllers, Diagnostics, EmergencyStop, EntityInfo, Findings, GoalProgress, GoalStatus, Graph,
+  Hello, Layout, LogLine, Model, Notice, Playhead, Recording, RobotInfo, ServerMessage, Services, SimulationStatus,
+  SimulatorInfo, Topics, Transforms, World,
 } from './protocol';
 import type { Asked, Link } from './connection';
 import { Freshness } from './freshness';
@@ -17,7 +18,8 @@ import { Freshness } from './freshness';
 /** What can change; a listener is called for the topics that it subscribed to. */
 export type Topic =
   | 'link' | 'hello' | 'graph' | 'model' | 'world' | 'layout' | 'simulation' | 'reset'
-  | 'controllers' | 'diagnostics' | 'topics' | 'transforms' | 'log' | 'findings' | 'driver' | 'commanders' | 'stops' | 'goal'
+  | 'controllers' | 'diagnostics' | 'topics' | 'services' | 'progress' | 'transforms' | 'log' | 'findings'
+  | 'driver' | 'commanders' | 'stops' | 'goal'
   | 'silence' | 'notice' | 'robot' | 'frame' | 'selection' | 'recording' | 'playhead' | 'writing';
 
 export interface NoticeEntry extends Notice {
@@ -35,6 +37,7 @@ export interface Selection {
 const MOST_NOTICES = 50;
 const NO_STOP: EmergencyStop = { type: 'emergency_stop', client: null, since: null, robots: [] };
 const MOST_LINES = 2000;
+const MOST_GOALS = 20; // of which progress is kept
 
 export class Store {
   /** Called with each world, as the scene takes them one by one. */
@@ -66,6 +69,8 @@ export class Store {
     silence: signal(''),
     notice: signal<readonly NoticeEntry[]>([]),
     topics: signal<Topics | null>(null),
+    services: signal<Services | null>(null),
+    progress: signal<ReadonlyMap<number, GoalProgress>>(new Map()),
     transforms: signal<Transforms | null>(null),
     findings: signal<Findings | null>(null),
     log: signal<readonly LogLine[]>([]),
@@ -135,6 +140,16 @@ export class Store {
   /** Nodes and topics; null: they have not come since somebody looked. */
   get topics(): Topics | null {
     return this.cells.topics.value;
+  }
+
+  /** Services and actions; null: they have not come since somebody looked. */
+  get services(): Services | null {
+    return this.cells.services.value;
+  }
+
+  /** How the last goals go that this page has sent, by the ids of the requests. */
+  get progress(): ReadonlyMap<number, GoalProgress> {
+    return this.cells.progress.value;
   }
 
   get transforms(): Transforms | null {
@@ -389,6 +404,12 @@ export class Store {
       case 'topics':
         cells.topics.value = message;
         return;
+      case 'services':
+        cells.services.value = message;
+        return;
+      case 'goal_progress':
+        cells.progress.value = new Map([...cells.progress.peek(), [message.goal, message] as const].slice(-MOST_GOALS));
+        return;
       case 'transforms':
         cells.transforms.value = message;
         return;
@@ -423,7 +444,12 @@ export class Store {
     this.cells.recording.value = this.cells.playhead.value = this.cells.writing.value = null;
     this.cells.stops.value = NO_STOP;
     this.freshness.take(null, 0);
-    this.cells.topics.value = null;
+    this.cells.topics.value = this.cells.services.value = null;
+    for (const [goal, each] of this.cells.progress.peek()) {
+      if (each.state === 'active') { // the node cancels what its page has left
+        this.take({ ...each, goal, state: 'lost', text: 'The connection to the node was lost.' });
+      }
+    }
     this.cells.transforms.value = null;
     this.cells.findings.value = null;
     this.cells.log.value = []; // another node counts anew

@@ -32,7 +32,7 @@ const MOVES = {
 const GROUPS: readonly (readonly string[])[] = [
   ['model', 'joints', 'sensors', 'frames'],
   ['simulation', 'control', 'health', 'plots'],
-  ['topics', 'log', 'parameters', 'graph'],
+  ['topics', 'services', 'log', 'parameters', 'graph'],
 ];
 const ORDER = GROUPS.flat();
 

@@ -6,9 +6,10 @@ import { fitted, layered } from '../src/graph/layered';
 import { framesPicture, nodesPicture } from '../src/graph/shown';
 import { graphPanel } from '../src/panels/graph';
 import { logPanel } from '../src/panels/log';
+import { valuesOf } from '../src/panels/message_form';
 import { numberOf } from '../src/panels/message_tree';
 import { parametersPanel } from '../src/panels/parameters';
-import { valuesOf } from '../src/panels/publish_form';
+import { servicesPanel } from '../src/panels/services';
 import { topicsPanel } from '../src/panels/topics';
 import type { FieldInfo, FrameStatus, LogLine, ParameterInfo, TopicInfo } from '../src/protocol';
 import type { Sample } from '../src/samples';
@@ -83,20 +84,21 @@ test('an open topic echoes its messages; a number of it is plotted', async () =>
   assert.deepEqual(app.channels.messages, [], 'what is not drawn is not asked for');
 });
 
+const NUMBER: FieldInfo = { name: 'x', kind: 'double', length: null, fields: [], value: 0, constants: {} };
 const FIELDS: FieldInfo[] = [
-  { name: 'stamp', kind: 'builtin_interfaces/msg/Time', length: null, fields: [], value: null },
-  { name: 'name', kind: 'string', length: null, fields: [], value: '' },
-  {
-    name: 'linear', kind: 'a/msg/V', length: null, value: null,
-    fields: [{ name: 'x', kind: 'double', length: null, fields: [], value: 0 }],
-  },
-  { name: 'list', kind: 'double', length: 0, fields: [], value: null },
+  { ...NUMBER, name: 'stamp', kind: 'builtin_interfaces/msg/Time', value: null },
+  { ...NUMBER, name: 'name', kind: 'string', value: '' },
+  { ...NUMBER, name: 'linear', kind: 'a/msg/V', value: null, fields: [NUMBER] },
+  { ...NUMBER, name: 'list', length: 0, value: null },
+  { ...NUMBER, name: 'mode', kind: 'uint8', constants: { MODE_OFF: 0, MODE_ON: 1 } },
 ];
 
 test('what was typed becomes the values of a message, and the rest are defaults', () => {
   assert.deepEqual(valuesOf(FIELDS, {}), {});
   const typed = { stamp: 'now', name: '3', 'linear.x': '-0.5', list: '[1, 2]' };
   assert.deepEqual(valuesOf(FIELDS, typed), { stamp: 'now', name: '3', linear: { x: -0.5 }, list: [1, 2] });
+  assert.deepEqual(valuesOf(FIELDS, { mode: 'MODE_ON' }), { mode: 1 });
+  assert.throws(() => valuesOf(FIELDS, { mode: 'MODE_UP' }), /mode is a uint8: "MODE_UP" cannot be read as one/);
   assert.throws(() => valuesOf(FIELDS, { 'linear.x': 'fast' }), /linear\.x is a double: "fast"/);
 });
 
@@ -110,7 +112,7 @@ test('a form publishes at a rate until it is closed with its topic', async () =>
   click(button('Publish …'));
   app.say({ type: 'reply', id: 1, ok: true, message: '', data: FIELDS, again: null });
   await drawn();
-  type(panel.element.querySelector('[id="publish-linear.x"]'), '2');
+  type(panel.element.querySelector('[id="field-linear.x"]'), '2');
   await drawn();
   click(button('At 10 Hz'));
   assert.deepEqual(app.sent.at(-1), {
@@ -122,6 +124,73 @@ test('a form publishes at a rate until it is closed with its topic', async () =>
   click(panel.element.querySelector('.topic'));
   await drawn();
   assert.deepEqual(app.sent.at(-1), { type: 'unpublish', id: 3, topic: '/odom' });
+});
+
+const button = (panel: { element: HTMLElement }, text: string): HTMLButtonElement | undefined =>
+  [...panel.element.querySelectorAll('button')].find((each) => each.textContent === text);
+
+function withServices(): { app: TestApp; panel: ReturnType<typeof servicesPanel> } {
+  const app = connectedApp();
+  const service = (name: string, kind: string, is_action = false) => ({ name, kind, is_action });
+  app.say({
+    type: 'services',
+    services: [
+      service('/arm/count', 'a/action/Count', true),
+      service('/arm/get_parameters', 'rcl_interfaces/srv/GetParameters'),
+      service('/arm/set_it', 'a/srv/SetIt'),
+    ],
+  });
+  return { app, panel: servicesPanel(app) };
+}
+
+test('a service is called with what was typed, and its response is shown', async () => {
+  const { app, panel } = withServices();
+  assert.deepEqual(texts(panel, '.unit-name'), ['/arm/count', '/arm/set_it']);
+  click(panel.element.querySelector('[role=switch]'));
+  type(panel.element.querySelector('input'), 'param');
+  await drawn();
+  assert.deepEqual(texts(panel, '.unit-name'), ['/arm/get_parameters']);
+  type(panel.element.querySelector('input'), 'set_it');
+  await drawn();
+  click(panel.element.querySelector('.topic'));
+  await drawn();
+  assert.deepEqual(app.sent.at(-1), { type: 'definition', id: 1, message: 'a/srv/SetIt' });
+  app.say({ type: 'reply', id: 1, ok: true, message: '', data: FIELDS.slice(4), again: null });
+  await drawn();
+  assert.deepEqual([...panel.element.querySelectorAll('option')].map(({ value }) => value), ['MODE_OFF', 'MODE_ON']);
+  type(panel.element.querySelector('[id="field-mode"]'), 'MODE_ON');
+  await drawn();
+  click(button(panel, 'Call'));
+  assert.deepEqual(app.sent.at(-1), {
+    type: 'call_service', id: 2, service: '/arm/set_it', kind: 'a/srv/SetIt', values: { mode: 1 },
+  });
+  app.say({ type: 'reply', id: 2, ok: true, message: 'it answered', data: 'done: <b>\n', again: null });
+  await drawn();
+  assert.deepEqual([...texts(panel, 'output'), ...texts(panel, 'pre')], ['it answered', 'done: <b>\n']);
+});
+
+test('a goal is followed and cancelled, also when its form was shut meanwhile', async () => {
+  const { app, panel } = withServices();
+  const open = async (): Promise<void> => {
+    click(panel.element.querySelector('.topic'));
+    await drawn();
+  };
+  await open();
+  app.say({ type: 'reply', id: 1, ok: true, message: '', data: [], again: null });
+  await drawn();
+  click(button(panel, 'Send goal'));
+  assert.deepEqual(app.sent.at(-1), { type: 'send_goal', id: 2, action: '/arm/count', kind: 'a/action/Count', values: {} });
+  app.say({ type: 'reply', id: 2, ok: true, message: 'accepted', data: null, again: null });
+  app.say({ type: 'goal_progress', goal: 2, state: 'active', text: 'at: 1\n' });
+  await open();
+  await open();
+  assert.deepEqual([...texts(panel, '.chip'), ...texts(panel, 'pre')], ['active', 'at: 1\n']);
+  click(button(panel, 'Cancel goal'));
+  assert.deepEqual(app.sent.at(-1), { type: 'cancel_sent', id: 4, goal: 2 });
+  app.say({ type: 'goal_progress', goal: 2, state: 'canceled', text: 'at: 2\n' });
+  await drawn();
+  assert.deepEqual([...texts(panel, '.chip'), ...texts(panel, 'pre')], ['canceled', 'at: 2\n']);
+  assert.equal(button(panel, 'Cancel goal'), undefined);
 });
 
 function line(number: number, level: LogLine['level'], node: string, text: string): LogLine {

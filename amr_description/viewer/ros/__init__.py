@@ -13,6 +13,7 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``command_topic.py``    the command in force, and how often others command
 ``pushing.py``          pushes the robots of a simulator
 ``joint_commands.py``   joints that pages move by controllers
+``action_goals.py``     goals of actions: sent, followed to their end, cancelled
 ``goals.py``            goals and initial poses that pages give, by topics and the action
 ``entity_topics.py``    with what simulators have spawned their entities
 ``spawned_robots.py``   description and transforms of robots that nobody else describes
@@ -32,11 +33,13 @@ The backend of the page's server for the robots of a ROS graph, or of a bag.
 ``field_feed.py``       … some numbers of each message, for plots
 ``topic_rate.py``       how many messages a second come
 ``introspection.py``    the graph itself, while a page shows it:
-``topic_list.py``       … nodes, topics and rates
+``topic_list.py``       … nodes, topics and rates, services
 ``transform_list.py``   … the TF tree with rates and ages
 ``log_lines.py``        … /rosout; its last warnings are kept
 ``health.py``           … the findings of the doctor
-``publications.py``     what pages publish by forms
+``forms.py``            what forms of messages have: fields, defaults, constants
+``publications.py``     … what pages publish by them
+``calls.py``            … services that they call, goals that they send
 ``parameters.py``       parameters of any node, listed and set
 ``markers.py``          MarkerArray and /diagnostics, converted for the page
 ``service_clients.py``  services of simulators and controller managers

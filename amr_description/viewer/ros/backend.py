@@ -33,6 +33,7 @@ from amr_description.model.frames import Vector
 from amr_description.viewer.backend import Answer, Handlers, Hold, Watched
 from amr_description.viewer.bags import StartRecording, StopRecording
 from amr_description.viewer.entities import entity_among
+from amr_description.viewer.forms import CallService, CancelSent, SendGoal
 from amr_description.viewer.joint_groups import joint_groups, with_moves
 from amr_description.viewer.protocol import (
     Channel,
@@ -62,12 +63,14 @@ from amr_description.viewer.requests import (
     Switch,
     Unpublish,
 )
+from amr_description.viewer.ros.calls import FormCalls
 from amr_description.viewer.ros.command_topic import DEFAULT_TIMEOUT
+from amr_description.viewer.ros.forms import define
 from amr_description.viewer.ros.goals import Goals
 from amr_description.viewer.ros.graph_monitor import GraphMonitor
 from amr_description.viewer.ros.page_recorder import PageRecorder
 from amr_description.viewer.ros.parameters import ParameterClients
-from amr_description.viewer.ros.publications import define, Publications
+from amr_description.viewer.ros.publications import Publications
 from amr_description.viewer.ros.ros_side import GraphReporter, RosCalls
 from amr_description.viewer.ros.service_clients import (
     command_timeout,
@@ -133,6 +136,14 @@ class GraphBackend:
             node,
             executor,
             lambda each: self.server.pages.publish(each.robot, each),
+            lambda call: self.server.call(call),
+        )
+        self._calls = FormCalls(
+            node,
+            executor,
+            self._goal_refusal,
+            self._now,
+            lambda page, progress: self.server.pages.tell(page, progress),
             lambda call: self.server.call(call),
         )
         self._recorder = PageRecorder(
@@ -213,6 +224,7 @@ class GraphBackend:
         if robots != before:
             self._ros.hold(robots)
             self._goals.stop(robots - before)
+            self._calls.stop()
         for name in (before - robots) & known.keys():
             known[name].release()
             self._activate_again(known[name])
@@ -245,8 +257,9 @@ class GraphBackend:
                 each.hold_joints()
 
     def forget(self, page: str) -> None:
-        """End what a page published."""
+        """End what a page published, and cancel the goals that it sent."""
         self._publications.forget(page)
+        self._calls.forget(page)
 
     def latest(self, part: Part) -> ServerMessage | None:
         """Return what is known of a part that is not of the states."""
@@ -260,12 +273,23 @@ class GraphBackend:
                 return f'{name} is stopped: nothing is published on {topic} until it is released'
         return None
 
+    def _goal_refusal(self, action: str) -> str | None:
+        """Return why pages must not send goals to an action by forms; None: they may."""
+        owners = [each for each in self._robots if action.startswith(f'{each.rstrip("/")}/')]
+        owner = max(owners, key=len, default=None)
+        if owner in self._ros.held:
+            return f'{owner} is stopped: no goal is sent to {action} until it is released'
+        return None
+
     def _make_handlers(self) -> Handlers:
         """Return what carries out requests, each in one place."""
         handlers = Handlers(_refuse_bag_request)
         handlers.add(Definition, define)
         handlers.add(Publish, self._publications.publish)
         handlers.add(Unpublish, self._publications.unpublish)
+        handlers.add(CallService, self._calls.call_service)
+        handlers.add(SendGoal, self._calls.send_goal)
+        handlers.add(CancelSent, self._calls.cancel)
         handlers.add(ListParameters, self._parameters.list_all)
         handlers.add(SetParameter, self._parameters.set)
         handlers.add(SetGoal, self._set_goal)

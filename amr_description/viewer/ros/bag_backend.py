@@ -43,7 +43,7 @@ from amr_description.viewer.protocol import (
 )
 from amr_description.viewer.requests import Definition, OverviewData, Part
 from amr_description.viewer.ros.bag_samples import BagSamples, read_series
-from amr_description.viewer.ros.publications import define
+from amr_description.viewer.ros.forms import define
 from amr_description.viewer.ros.recorded import Recorded, RecordedRobot
 from amr_description.viewer.samples import Sample
 from amr_description.viewer.server import Server

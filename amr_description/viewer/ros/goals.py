@@ -9,9 +9,7 @@ far it is, and can be cancelled. Else it is published on ``goal_pose``, as RViz 
 :meth:`Goals.find` is called on the ROS thread, all else on the server's.
 """
 
-import asyncio
 from collections.abc import Callable, Mapping, Sequence, Set as AbstractSet
-from contextlib import suppress
 from dataclasses import dataclass, replace
 import math
 from typing import Any
@@ -30,16 +28,13 @@ from amr_description.errors import AmrError, ViewerError
 from amr_description.model.frames import Transform
 from amr_description.ros.message_types import action_type
 from amr_description.ros.messages import fill_pose, fill_stamp
-from amr_description.ros.rclpy_internals import RCLError
 from amr_description.ros.service_calls import ActionReadiness
 from amr_description.text import shorten
 from amr_description.viewer.graph import NAVIGATE
 from amr_description.viewer.navigation import GoalStatus, Navigator
 from amr_description.viewer.requests import CancelGoal, SetGoal, SetInitialPose
-from amr_description.viewer.ros.threads import on_ros_thread
+from amr_description.viewer.ros.action_goals import ActionGoal, ActionGoals
 
-_ANSWER_TIMEOUT = 5.0
-"""s until an action server has answered."""
 _VARIANCES = {0: 0.25, 7: 0.25, 35: (math.pi / 12.0) ** 2}
 """Of x and y (m²) and yaw (rad²), by their places: those of RViz' 2D Pose Estimate."""
 _STOPPED = 'STOP was pressed'
@@ -77,15 +72,11 @@ class _Ends:
             self.action.destroy()
 
 
-@dataclass(slots=True, eq=False)
-class _Goal:
-    """A goal by the action; ``handle`` is None until it was accepted."""
+@dataclass(slots=True, eq=False, kw_only=True)
+class _Goal(ActionGoal):
+    """A goal by the action."""
 
     status: GoalStatus
-    action: str
-    handle: Any = None
-    reason: str = ''
-    """Why it is to be cancelled."""
 
 
 class Goals:
@@ -116,8 +107,7 @@ class Goals:
         self._prefixed: AbstractSet[str] = frozenset()
         self._goals: dict[str, _Goal] = {}
         """By the robot, those by the action; ended ones too."""
-        self._asked: set[_Goal] = set()
-        """Those that the action has not accepted yet."""
+        self._actions: ActionGoals[_Goal] = ActionGoals(node, executor, call)
 
     # --- on the ROS thread -----------------------------------------------------------------------
 
@@ -160,7 +150,8 @@ class Goals:
         if ends.action is not None and ends.is_ready is not None and ends.is_ready():
             status = GoalStatus(request.robot, page, 'active', *place)
             self._node.get_logger().info(f'{page} sends {request.robot} to {where}')
-            await self._pursue(_Goal(status, ends.navigator.action or ''), ends.action, pose)
+            goal = _Goal(action=ends.navigator.action or '', status=status)
+            await self._pursue(goal, ends.action, pose)
             return f'{ends.navigator.action} has accepted the goal: {where}'
         if ends.goal is None:
             raise ViewerError(
@@ -178,18 +169,13 @@ class Goals:
         goal = self._goals.get(robot)
         if goal is None or goal.status.state != 'active':
             raise ViewerError(f'no page has given {robot} a goal that it is after')
-        answer = await self._asked_of(goal.action, goal.handle.cancel_goal_async)
-        if not answer.goals_canceling and goal.status.state == 'active':
-            raise ViewerError(f'{goal.action} does not cancel the goal; its log says why')
-        return f'{goal.action} cancels the goal'
+        return await self._actions.cancel(goal, lambda: goal.status.state == 'active')
 
     def stop(self, robots: AbstractSet[str]) -> None:
         """Cancel the goals of robots that STOP holds from now on."""
-        for goal in [*self._asked, *self._goals.values()]:
+        for goal in [*self._actions.asked, *self._goals.values()]:
             if goal.status.robot in robots and goal.status.state == 'active':
-                goal.reason = _STOPPED
-                if goal.handle is not None:
-                    self._executor.create_task(_cancel, goal)
+                self._actions.cancel_soon(goal, _STOPPED)
 
     def set_initial_pose(self, request: SetInitialPose, time: int) -> str:
         """Publish where a robot is, at a ROS time (ns); return one line. Raises ViewerError."""
@@ -209,45 +195,16 @@ class Goals:
 
     async def _pursue(self, goal: _Goal, client: ActionClient, pose: PoseStamped) -> None:
         """Send a goal, and follow it to its end once it is accepted."""
-        robot = goal.status.robot
-
-        def on_feedback(message: Any) -> None:
-            self._call(lambda: self._on_feedback(goal, message.feedback))
-
-        def send() -> Future:
-            sent = client.send_goal_async(wanted, on_feedback)
-            sent.add_done_callback(lambda done: self._call(lambda: self._on_answer(goal, done)))
-            return sent
-
-        wanted = action_type(NAVIGATE).Goal(pose=pose)
-        self._asked.add(goal)
-        try:
-            goal.handle = await self._asked_of(goal.action, send)
-        finally:
-            self._asked.discard(goal)
-        if not goal.handle.accepted:
-            raise ViewerError(f'{goal.action} refuses the goal; its log says why')
-        self._goals[robot] = goal
+        await self._actions.send(
+            goal,
+            client,
+            action_type(NAVIGATE).Goal(pose=pose),
+            lambda feedback: self._on_feedback(goal, feedback),
+            lambda done: self._on_result(goal, done),
+        )
+        self._goals[goal.status.robot] = goal
         self._tell(goal.status)
-        self._executor.create_task(self._await_result, goal)
-        if goal.reason:  # STOP was pressed in the meantime
-            self._executor.create_task(_cancel, goal)
-
-    def _on_answer(self, goal: _Goal, done: Future) -> None:
-        """Cancel a goal that is accepted after its page was told that it is not."""
-        is_late = goal not in self._asked and goal.handle is None
-        if not is_late or done.exception() is not None:
-            return
-        goal.handle = done.result()
-        if goal.handle.accepted:
-            self._node.get_logger().warning(f'{goal.action} has accepted a goal too late')
-            self._executor.create_task(_cancel, goal)
-
-    def _await_result(self, goal: _Goal) -> None:
-        """Ask for the result of a goal; on the ROS thread."""
-        with suppress(InvalidHandle, RCLError):  # the action has gone, which is told otherwise
-            result = goal.handle.get_result_async()
-            result.add_done_callback(lambda done: self._call(lambda: self._on_result(goal, done)))
+        self._actions.follow(goal)
 
     def _on_feedback(self, goal: _Goal, feedback: Any) -> None:
         left = feedback.estimated_time_remaining
@@ -291,32 +248,6 @@ class Goals:
             else:
                 self._tell(goal.status)
 
-    async def _asked_of(self, action: str, ask: Callable[[], Future]) -> Any:
-        """
-        Ask an action server on the ROS thread, and wait for its answer. Raises ViewerError.
-
-        An ActionClient takes note of its request after it has sent it, without a lock: asked on
-        another thread, the answer can come first, and is then unexpected.
-        """
-        loop = asyncio.get_running_loop()
-        done = loop.create_future()
-
-        def settle() -> None:
-            if not done.done():  # else nobody waits any more
-                done.set_result(None)
-
-        def run() -> Future:
-            future = ask()
-            future.add_done_callback(lambda _: loop.call_soon_threadsafe(settle))
-            return future
-
-        future = await on_ros_thread(self._executor, run)
-        try:
-            await asyncio.wait_for(done, _ANSWER_TIMEOUT)
-        except TimeoutError:
-            raise ViewerError(f'{action} has not answered within {_ANSWER_TIMEOUT:g} s') from None
-        return future.result()
-
     def _ends_of(self, robot: str) -> _Ends:
         ends = self._ends.get(robot)
         if ends is None:
@@ -327,12 +258,6 @@ class Goals:
         """Return the name that a frame of a page has in messages."""
         is_own = request.robot in self._prefixed
         return request.frame.removeprefix(f'{request.robot[1:]}/') if is_own else request.frame
-
-
-def _cancel(goal: _Goal) -> None:
-    """Cancel a goal; on the ROS thread."""
-    with suppress(InvalidHandle, RCLError):  # the action has gone, and the goal with it
-        goal.handle.cancel_goal_async()
 
 
 def _usable(navigator: Navigator) -> Navigator:

@@ -1,7 +1,7 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-What pages show of the ROS graph itself: topics and nodes, the TF tree, the log.
+What pages show of the ROS graph itself: topics and nodes, services, the TF tree, the log.
 
 Each is collected only while a page shows it, but for the last warnings. On the ROS thread.
 """
@@ -11,17 +11,18 @@ from typing import TypeAlias
 
 from rclpy.node import Node
 
+from amr_description.viewer.forms import Services
 from amr_description.viewer.introspection import Findings, Log, Topics, Transforms
 from amr_description.viewer.requests import Part
 from amr_description.viewer.ros.health import Health
 from amr_description.viewer.ros.log_lines import RosoutLines
-from amr_description.viewer.ros.topic_list import list_topics, TopicRates
+from amr_description.viewer.ros.topic_list import list_services, list_topics, TopicRates
 from amr_description.viewer.ros.transform_list import TransformList
 
 _EVERY = 3
 """Polls from one list of topics to the next: to make it takes 100 µs a topic."""
 
-GraphMessage: TypeAlias = Topics | Transforms | Log | Findings
+GraphMessage: TypeAlias = Topics | Services | Transforms | Log | Findings
 Tell: TypeAlias = Callable[[Part, GraphMessage], object]
 
 
@@ -38,6 +39,7 @@ class Introspection:
         self._parts: AbstractSet[Part] = frozenset()
         self._rates = TopicRates(node)
         self._topics: Topics | None = None
+        self._services: Services | None = None
         self._transforms: TransformList | None = None
         self._namespaces: tuple[str, ...] = ()
         self._log: RosoutLines | None = None
@@ -62,6 +64,8 @@ class Introspection:
             return Log(log.kept)
         if part in {'findings', 'alarms'}:
             return self._health.latest
+        if part == 'services':
+            return self._services
         return self._topics if part == 'topics' else None
 
     def watch(self, parts: AbstractSet[Part], namespaces: Sequence[str]) -> None:
@@ -73,6 +77,8 @@ class Introspection:
             self._rates.measure(())
         if 'topics' not in parts:
             self._topics = None
+        if 'services' not in parts:
+            self._services = None
         if self._transforms is not None and (
             'transforms' not in parts or tuple(namespaces) != self._namespaces
         ):
@@ -83,6 +89,8 @@ class Introspection:
             self._transforms = TransformList(self._node, namespaces)
         if 'topics' in begun:
             self._list_topics()
+        if 'services' in begun:
+            self._list_services()
 
     def poll(self) -> None:
         """Tell what is new."""
@@ -92,8 +100,12 @@ class Introspection:
             self._tell('log', Log(lines))
         if self._transforms is not None:
             self._tell('transforms', self._transforms.poll())
-        if 'topics' in self._parts and self._polls % _EVERY == 0:
+        if self._polls % _EVERY:
+            return
+        if 'topics' in self._parts:
             self._list_topics()
+        if 'services' in self._parts:
+            self._list_services()
 
     def _tell_findings(self, found: Findings) -> None:
         self._tell('findings', found)
@@ -107,3 +119,9 @@ class Introspection:
         if topics != self._topics:
             self._topics = topics
             self._tell('topics', topics)
+
+    def _list_services(self) -> None:
+        services = list_services(self._node)
+        if services != self._services:
+            self._services = services
+            self._tell('services', services)

@@ -14,16 +14,12 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from amr_description.cdr.layouts import FieldGroup, Layout, Many, Text
 from amr_description.errors import ViewerError
-from amr_description.ros.layouts import layout_of
 from amr_description.ros.message_fields import set_fields
 from amr_description.ros.message_types import message_type
 from amr_description.ros.messages import fill_stamp
 from amr_description.text import shorten
-from amr_description.viewer.backend import Answer
-from amr_description.viewer.introspection import FieldInfo
-from amr_description.viewer.requests import Definition, Publish, Unpublish
+from amr_description.viewer.requests import Publish, Unpublish
 from amr_description.viewer.ros.threads import on_ros_thread
 
 _MOST = 16
@@ -197,38 +193,3 @@ def _publish(send: Callable[[], None]) -> None:
         send()
     except InvalidHandle:
         raise ViewerError('the viewer is ending') from None
-
-
-async def define(request: Definition, _: str) -> Answer:
-    """Answer with the fields of the messages of a type. Raises AmrError."""
-    kind = message_type(request.message)
-    return Answer(request.message, _fields(layout_of(kind), kind()))
-
-
-def _fields(layout: FieldGroup, example: Any) -> tuple[FieldInfo, ...]:
-    return tuple(_field(name, each, getattr(example, name)) for name, each in layout.fields)
-
-
-def _field(name: str, layout: Layout, value: Any) -> FieldInfo:
-    if isinstance(layout, Many):
-        element = layout.element
-        inner = () if not isinstance(element, FieldGroup) else _fields(element, _example(element))
-        return FieldInfo(name, _kind(element), layout.count or 0, inner, None)
-    if isinstance(layout, FieldGroup):
-        return FieldInfo(name, layout.name, None, _fields(layout, value), None)
-    return FieldInfo(name, _kind(layout), None, (), ord(value) if _is_octet(value) else value)
-
-
-def _example(layout: FieldGroup) -> Any:
-    return message_type(layout.name)()
-
-
-def _is_octet(value: Any) -> bool:
-    return isinstance(value, bytes) and len(value) == 1
-
-
-def _kind(layout: Layout) -> str:
-    if isinstance(layout, Text):
-        return 'wstring' if layout.is_wide else 'string'
-    assert not isinstance(layout, Many), 'an array has no arrays'
-    return layout.name

@@ -173,40 +173,44 @@ class ServiceClients:
         client = self._clients.get(name)
         if client is None:
             raise ViewerError(f'there is no service {name}; is its node running?')
-        loop = asyncio.get_running_loop()
-        answered = loop.create_future()
-        try:
-            await _ready(ServiceReadiness(self._node, client), name)
-            pending = client.call_async(request)
-        except InvalidHandle:  # the ROS thread has destroyed it in the meantime
-            raise ViewerError(f'service {name} has gone; is its node running?') from None
-
-        def answer() -> None:
-            if not answered.done():
-                answered.set_result(None)
-
-        def settle(_: Future) -> None:
-            loop.call_soon_threadsafe(answer)
-
-        pending.add_done_callback(settle)
-        try:
-            await asyncio.wait_for(answered, timeout)
-        except TimeoutError:
-            raise UnansweredError(
-                f'service {name} has not answered within {timeout:g} s'
-            ) from None
-        finally:
-            client.remove_pending_request(pending)
-        return pending.result()
+        return await call_client(self._node, client, name, request, timeout)
 
 
-async def _ready(is_ready: ServiceReadiness, service: str) -> None:
+async def call_client(node: Node, client: Client, name: str, request: Any, timeout: float) -> Any:
+    """As :meth:`ServiceClients.call`, by a client of the node for the service."""
+    loop = asyncio.get_running_loop()
+    answered = loop.create_future()
+    try:
+        await wait_until_ready(ServiceReadiness(node, client), f'service {name}')
+        pending = client.call_async(request)
+    except InvalidHandle:  # the ROS thread has destroyed it in the meantime
+        raise ViewerError(f'service {name} has gone; is its node running?') from None
+
+    def answer() -> None:
+        if not answered.done():
+            answered.set_result(None)
+
+    def settle(_: Future) -> None:
+        loop.call_soon_threadsafe(answer)
+
+    pending.add_done_callback(settle)
+    try:
+        await asyncio.wait_for(answered, timeout)
+    except TimeoutError:
+        raise UnansweredError(f'service {name} has not answered within {timeout:g} s') from None
+    finally:
+        client.remove_pending_request(pending)
+    return pending.result()
+
+
+async def wait_until_ready(is_ready: Callable[[], bool], what: str) -> None:
+    """Wait until a service or an action is there. Raises ViewerError: it is not."""
     loop = asyncio.get_running_loop()
     deadline = loop.time() + _READY_TIMEOUT
     while not is_ready():
         if loop.time() > deadline:
             raise ViewerError(
-                f'service {service} is not there after {_READY_TIMEOUT:g} s; is its node running?'
+                f'{what} is not there after {_READY_TIMEOUT:g} s; is its node running?'
             )
         await asyncio.sleep(_READY_PERIOD)
 

@@ -1,13 +1,15 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-The nodes and topics of the ROS graph, and the rates of topics; asked for while a page shows them.
+The nodes, topics and services of the ROS graph, and the rates of topics; asked for while a page
+shows them.
 
 All of it runs on the ROS thread.
 """
 
 from collections.abc import Iterable
 
+from rclpy.action import get_action_names_and_types
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -18,6 +20,7 @@ from amr_description.ros.endpoints import endpoint_node
 from amr_description.ros.layouts import layout_of
 from amr_description.ros.polled_topic import PolledTopic
 from amr_description.ros.rclpy_internals import RCLError
+from amr_description.viewer.forms import CallInfo, Services
 from amr_description.viewer.graph import SENSORS
 from amr_description.viewer.introspection import Endpoint, TopicInfo, Topics
 from amr_description.viewer.ros.source import source_of, TopicSource
@@ -45,6 +48,23 @@ def list_topics(node: Node, rates: 'TopicRates') -> Topics:
                 TopicInfo(name, tuple(types), publishers, subscriptions, rates.value(name))
             )
     return Topics(tuple(sorted(nodes)), tuple(sorted(topics, key=lambda each: each.name)))
+
+
+def list_services(node: Node) -> Services:
+    """Return all services and actions that somebody serves; hidden services are left out."""
+    found = [
+        CallInfo(name, kind, is_action=False)
+        for name, kinds in node.get_service_names_and_types()
+        if '/_' not in name and node.count_services(name)
+        for kind in kinds
+    ]
+    found += [
+        CallInfo(name, kind, is_action=True)
+        for name, kinds in get_action_names_and_types(node)
+        if node.count_services(f'{name}/_action/send_goal')
+        for kind in kinds
+    ]
+    return Services(tuple(sorted(found, key=lambda each: (each.name, each.kind))))
 
 
 def _endpoints(found: Iterable[TopicEndpointInfo], own: tuple[str, str]) -> tuple[Endpoint, ...]:

@@ -21,7 +21,7 @@ from amr_description.errors import ViewerError
 from amr_description.ros import service_calls
 from amr_description.viewer.navigation import Navigator
 from amr_description.viewer.requests import CancelGoal, SetGoal, SetInitialPose
-from amr_description.viewer.ros import goals
+from amr_description.viewer.ros import action_goals
 from amr_description.viewer.ros.goals import Goals
 
 NAVIGATOR = Navigator('/a', '/a/goal_pose', '/a/navigate_to_pose', None)
@@ -187,7 +187,7 @@ class Slow:
 
 
 def test_a_goal_that_is_accepted_too_late_is_cancelled(graph, monkeypatch):
-    monkeypatch.setattr(goals, '_ANSWER_TIMEOUT', 0.1)
+    monkeypatch.setattr(action_goals, '_ANSWER_TIMEOUT', 0.1)
     graph.server.accepts = Slow()
     with pytest.raises(ViewerError, match='has not answered within 0.1 s'):
         graph.give()

@@ -29,9 +29,10 @@ from amr_description.viewer.requests import (
     SetParameter,
 )
 from amr_description.viewer.ros import health
+from amr_description.viewer.ros.forms import define
 from amr_description.viewer.ros.introspection import Introspection
 from amr_description.viewer.ros.parameters import ParameterClients
-from amr_description.viewer.ros.publications import define, Publications
+from amr_description.viewer.ros.publications import Publications
 from amr_description.viewer.ros.service_clients import ServiceClients
 
 

@@ -126,6 +126,15 @@ def show(page, tab):
             })()"""
         )
         page.wait_until("document.querySelector('#panel-parameters .parameter')")
+    elif tab == 'services':
+        page.wait_until("document.querySelector('#panel-services .topic')")
+        page.evaluate(
+            """(() => {
+              const last = [...document.querySelectorAll('#panel-services .topic')].at(-1);
+              if (last.ariaExpanded !== 'true') last.click();
+            })()"""
+        )
+        page.wait_until("document.getElementById('field-state.state')")
     page.evaluate(DRAWN)
 
 
