@@ -31,6 +31,7 @@ test('names in a legend are as short as they can be told apart', () => {
   const truth = { ...SPEED, topic: '/truth' };
   assert.deepEqual(shortNames([SPEED, truth]), ['/odom:twist.twist.linear.x', '/truth:twist.twist.linear.x']);
   assert.deepEqual(shortNames([{ topic: '/a', path: 'data' }]), ['data']);
+  assert.deepEqual(shortNames([SPEED, { ...SPEED, steps: [{ by: 'd' }] }]), ['linear.x', 'linear.x~d']);
 });
 
 test('what a number is of: a vector, an array, a message, or nothing but its topic', () => {
@@ -86,6 +87,21 @@ test('a layout is the same after it was kept or sent as a link', () => {
   assert.equal(encode(shared.charts), text);
   assert.equal(shared.text, text);
   assert.deepEqual(shared.kept, [], 'one’s own layout stays until something is changed');
+});
+
+test('a line is replaced by what is made of it, in its place and once', () => {
+  const plots = layout('/odom:twist.twist.linear.x,/imu:angular_velocity.z');
+  const { id } = plots.charts[0]!;
+  const made = parseField('/odom:twist.twist.linear.x~d')!;
+  plots.replaceField(id, SPEED, made);
+  assert.equal(plots.kept.at(-1), '/odom:twist.twist.linear.x~d,/imu:angular_velocity.z');
+  assert.deepEqual(decode(plots.kept.at(-1)!)[0]!.fields, [made, TURN]);
+  assert.deepEqual([plots.isPlotted(SPEED), plots.isPlotted(made)], [false, true]);
+  plots.add(SPEED, id);
+  plots.replaceField(id, SPEED, made);
+  assert.deepEqual(plots.charts[0]!.fields, [made, TURN]);
+  assert.equal(plots.toggle({ topic: '/odom', path: 'twist.twist.linear.y' }), null);
+  assert.equal(plots.charts.length, 2, 'a vector and its derivative are not drawn together');
 });
 
 test('of a link that is none, nothing is taken', () => {

@@ -104,6 +104,27 @@ test('a field that is searched for is followed, kept, and said in the legend of 
   assert.equal(recorder.series(undefined, field)?.latest, 1.5);
 });
 
+test('what is made of a field is chosen in the settings of its chart, and follows what comes', async () => {
+  const { feed, panel } = plots();
+  panel.toggle(field);
+  panel.toggle({ topic: '/odom', path: 'twist.twist.linear.y' });
+  await drawn();
+  const select = (): HTMLSelectElement => [...panel.element.querySelectorAll<HTMLSelectElement>('.chart-making select')][0]!;
+  assert.deepEqual([...select().options].map(({ value }) => value).slice(-1), ['~minus=/odom:twist.twist.linear.y']);
+  for (const [value, expected] of [['~d', '2.00'], ['~minus=/odom:twist.twist.linear.y', '4.00']] as const) {
+    select().value = value;
+    select().dispatchEvent(new Event('change', { bubbles: true }));
+    feed.say('/odom:twist.twist.linear.y', [1, 2], [1, 1]);
+    feed.say(SPEED, [1, 2], [3, 5]);
+    panel.repaint();
+    assert.equal(texts(panel, '.chart:last-child td')[0], expected);
+    assert.equal(texts(panel, '.chart:last-child th')[0], `linear.x${value}`);
+  }
+  assert.equal(select().value, '~minus=/odom:twist.twist.linear.y');
+  panel.layout.reset();
+  assert.deepEqual([...feed.followers.keys()], [], 'both numbers are let go');
+});
+
 test('while one searches, topics are offered, then the numbers of those that are meant', async () => {
   const { app, panel } = plots();
   const input = panel.element.querySelector('.plot-search input') as HTMLInputElement;

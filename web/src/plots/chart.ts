@@ -4,7 +4,7 @@
 import { button, h, setText } from '../dom';
 import { clock } from '../format';
 import { Drawing, type Reader } from './drawing';
-import { droppedField, isField, type Field } from './field';
+import { droppedField, isField, nameOf, parseField, shortNames, stepsText, type Field } from './field';
 import { listenToGestures, type TimeHand } from './gestures';
 import { Legend, number } from './legend';
 import type { Bounds, ChartSpec } from './layout';
@@ -17,6 +17,7 @@ export interface ChartPort extends TimeHand {
   removeField(field: Field): void;
   remove(): void;
   setBounds(bounds: Bounds): void;
+  replace(field: Field, by: Field): void;
 }
 
 /** What is shown: the time, and where in it the cursor is, as a share. */
@@ -30,6 +31,15 @@ export interface Shown {
 }
 
 const OLD = 2; // s without a value of a field
+/** What may be made of a field, as it is written behind it, in words. */
+const MADE: readonly (readonly [string, string])[] = [
+  ['', 'as it is'],
+  ['~d', 'derivative'],
+  ['~lowpass=0.1', 'low-pass 0.1 s'],
+  ['~lowpass=0.5', 'low-pass 0.5 s'],
+  ['~lowpass=2', 'low-pass 2 s'],
+  ['~lowpass=0.5~d', 'derivative, low-pass 0.5 s'],
+];
 
 export class Chart {
   readonly element: HTMLElement;
@@ -41,6 +51,8 @@ export class Chart {
   private readonly time = h('span', { class: 'chart-time' });
   private readonly line = h('div', { class: 'chart-cursor', hidden: true }, this.time);
   private readonly part = h('div', { class: 'chart-part', hidden: true });
+  private readonly made = h('div');
+  private shownMade = ''; // of which fields
   private over: HTMLElement | null = null;
 
   constructor(
@@ -87,6 +99,7 @@ export class Chart {
         'plus and minus zoom, Home follows.',
     );
     this.legend.setLines(about.lines);
+    this.showMade();
     this.drawing.setLines(about, spec.bounds);
   }
 
@@ -148,11 +161,11 @@ export class Chart {
   }
 
   private head(): HTMLElement {
-    const form = this.boundsForm();
+    const form = h('div', { class: 'chart-settings', hidden: true }, this.boundsForm(), this.made);
     const bounds = button('', () => (form.hidden = !form.hidden), {
       icon: 'range',
       kind: 'quiet',
-      title: 'Least and greatest value',
+      title: 'Bounds, derivative, filter, difference',
     });
     return h(
       'div',
@@ -170,12 +183,49 @@ export class Chart {
     );
   }
 
+  /** Of each field, what is made of it. */
+  private showMade(): void {
+    const { fields } = this.spec;
+    const now = fields.map(nameOf).join();
+    if (now !== this.shownMade) {
+      this.shownMade = now;
+      this.made.replaceChildren(...fields.map((field, index) => this.makingOf(field, index)));
+    }
+  }
+
+  private makingOf(field: Field, index: number): HTMLElement {
+    const { topic, path } = field;
+    const [name = path] = shortNames([{ topic, path }]);
+    const others = this.spec.fields.filter((each) => each.topic !== topic || each.path !== path);
+    const minus = others.map((other): [string, string] => [
+      `~minus=${nameOf({ topic: other.topic, path: other.path })}`,
+      `minus ${shortNames([other, field])[0] ?? ''}`,
+    ]);
+    const offered = new Map([...MADE, ...minus]);
+    const current = stepsText(field);
+    const all = offered.has(current) ? offered : new Map([...offered, [current, current]]);
+    const select = h(
+      'select',
+      { 'aria-label': `${name} is shown` },
+      ...[...all].map(([value, words]) => h('option', { value }, words)),
+    );
+    select.value = current;
+    select.addEventListener('change', () => {
+      const by = parseField(`${topic}:${path}${select.value}`);
+      if (by !== null) {
+        this.port.replace(field, by);
+        this.made.querySelectorAll('select')[index]?.focus(); // this one has gone
+      }
+    });
+    return h('label', { class: 'chart-making' }, h('span', {}, name), select);
+  }
+
   private boundsForm(): HTMLFormElement {
     const input = (name: string, value: number | null): HTMLInputElement =>
       h('input', { type: 'number', step: 'any', placeholder: 'auto', 'aria-label': name, value });
     const least = input('Least value', this.spec.bounds[0]);
     const most = input('Greatest value', this.spec.bounds[1]);
-    const form = h('form', { class: 'bounds', hidden: true }, least, '–', most);
+    const form = h('form', { class: 'bounds' }, least, '–', most);
     const valueOf = ({ value }: HTMLInputElement): number | null =>
       value.trim() === '' || !Number.isFinite(Number(value)) ? null : Number(value);
     form.addEventListener('change', () => {

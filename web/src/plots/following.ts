@@ -1,7 +1,8 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** Has the fields that are plotted come, and keeps what comes. */
+/** Has the fields that are plotted come, and keeps what comes, or what is made of it. */
 import { nameOf, type Field } from './field';
+import { make } from './making';
 import type { Recorder } from './recorder';
 
 /** Numbers of the messages of a topic; see channels.ts. */
@@ -52,22 +53,27 @@ export class Following {
   }
 
   private begin(field: Field): void {
-    const followed: Followed = { end: () => {}, fault: null };
-    followed.end = this.feed.plot(field.topic, field.path, {
-      take: ({ stamps, values, lost }) => {
-        followed.fault = null;
-        const [first] = stamps;
-        if (lost > 0 && first !== undefined) {
-          this.recorder.take(field, first, Number.NaN); // no line over what never came
-        }
-        for (const [index, stamp] of stamps.entries()) {
-          this.recorder.take(field, stamp, values[index] ?? Number.NaN);
-        }
-      },
-      fail: (reason) => {
-        followed.fault = reason;
-      },
-    });
+    const ends: (() => void)[] = [];
+    const followed: Followed = { end: () => ends.forEach((end) => end()), fault: null };
+    const follow = ({ topic, path }: Field, take: (time: number, value: number) => void): void => {
+      const end = this.feed.plot(topic, path, {
+        take: ({ stamps, values, lost }) => {
+          followed.fault = null;
+          const [first] = stamps;
+          if (lost > 0 && first !== undefined) {
+            take(first, Number.NaN); // no line over what never came
+          }
+          for (const [index, stamp] of stamps.entries()) {
+            take(stamp, values[index] ?? Number.NaN);
+          }
+        },
+        fail: (reason) => {
+          followed.fault = reason;
+        },
+      });
+      ends.push(end);
+    };
+    follow(field, make(field, (time, value) => this.recorder.take(field, time, value), follow));
     this.followed.set(nameOf(field), followed);
   }
 }

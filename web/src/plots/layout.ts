@@ -120,6 +120,15 @@ export class PlotLayout {
     this.set(charts.filter(({ kind, fields }) => kind !== null || fields.length > 0));
   }
 
+  /** Have a line be another one, such as what is made of it; one that is there already is not added. */
+  replaceField(chart: number, field: Field, by: Field): void {
+    const there = this.charts.find(({ id }) => id === chart)?.fields ?? [];
+    const isThere = there.some((each) => isSame(each, by));
+    this.change(chart, {
+      fields: there.flatMap((each) => (isSame(each, field) ? (isThere ? [] : [by]) : [each])),
+    });
+  }
+
   removeChart(chart: number): void {
     this.set(this.charts.filter(({ id }) => id !== chart));
   }
@@ -162,7 +171,7 @@ function specOf(kind: Kind | null, fields: readonly Field[], bounds: Bounds): Ch
 }
 
 function isSame(one: Field, other: Field): boolean {
-  return one.topic === other.topic && one.path === other.path;
+  return nameOf(one) === nameOf(other);
 }
 
 function boundsOf(text: string): Bounds {
@@ -179,9 +188,9 @@ function isOrdered([least, most]: Bounds): boolean {
   return least === null || most === null || least < most;
 }
 
-/** Fragments take slashes and colons as they are, and so do people who read them. */
+/** Fragments take slashes, colons and equals signs as they are, and so do people who read them. */
 function escaped(name: string): string {
-  return encodeURIComponent(name).replaceAll('%2F', '/').replaceAll('%3A', ':');
+  return encodeURIComponent(name).replaceAll('%2F', '/').replaceAll('%3A', ':').replaceAll('%3D', '=');
 }
 
 function unescaped(text: string): string {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The lines of a chart: what each shows, its name, and how it is told from one that it lies on. */
 import { SOURCES } from '../readings';
-import { nameOf, parentOf, shortNames, type Field } from './field';
+import { nameOf, parentOf, shortNames, stepsText, type Field } from './field';
 import type { ChartSpec, Kind } from './layout';
 import { FACTOR_COLUMN, velocityColumn, wheelColumn } from './recorder';
 
@@ -59,7 +59,8 @@ function aboutFields(fields: readonly Field[]): Omit<ChartLines, 'lines'> {
   const parents = new Set(fields.map((field) => nameOf(parentOf(field))));
   const [parent] = parents.size === 1 ? fields.map(parentOf) : [];
   const about = parent?.path.split('.').at(-1) ?? ''; // "linear", of its x, y and z
-  return { title: `${topics.join(', ')} ${about}`.trim(), unit: '', always: null, leastSpan: 0 };
+  const made = parent === undefined ? '' : stepsText(parent);
+  return { title: `${topics.join(', ')} ${about}`.trim() + made, unit: '', always: null, leastSpan: 0 };
 }
 
 function ownLines(kind: Kind, wheels: readonly string[]): Line[] {

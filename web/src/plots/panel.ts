@@ -262,6 +262,7 @@ export class PlotsPanel implements Panel {
       ask: () => (this.target.value = { id, name: this.charts.get(id)?.name ?? '' }),
       removeField: (field) => this.layout.removeField(id, field),
       remove: () => this.layout.removeChart(id),
+      replace: (field, by) => this.layout.replaceField(id, field, by),
       setBounds: (bounds) => this.layout.setBounds(id, bounds),
       cursor: (share) => {
         this.cursor = share;
