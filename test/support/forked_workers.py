@@ -22,6 +22,7 @@ import contextlib
 from multiprocessing import connection, Pipe
 from multiprocessing.connection import Connection
 import os
+from pathlib import Path
 import pickle
 import signal
 import sys
@@ -222,6 +223,9 @@ class ForkedWorkers:
         del self._workers[worker.connection]
         worker.connection.close()
         _, status = os.waitpid(worker.pid, 0)
+        for pid in worker.left:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
         code = os.waitstatus_to_exitcode(status)
         if session.shouldfail or session.shouldstop or not (worker.outstanding or code):
             return
@@ -249,6 +253,7 @@ class ForkedWorkers:
         for worker in self._workers.values():
             if self._longest is not None and now - worker.heard_at > self._longest:
                 worker.heard_at = now
+                worker.left = _descendants(worker.pid)  # it will not see to their end
                 os.kill(worker.pid, signal.SIGABRT)
 
     def _end_all(self) -> None:
@@ -280,6 +285,8 @@ class _Worker:
         self.connection = link
         self.heard_at = time.monotonic()
         self.outstanding: deque[int] = deque()
+        self.left: list[int] = []
+        """The processes that it had when it was aborted."""
         self.reports: list[pytest.TestReport] = []
         """Of the test that runs."""
 
@@ -303,6 +310,14 @@ def together(groups: Iterable[object]) -> list[list[int]]:
     for place, group in enumerate(groups):
         places.setdefault(group, []).append(place)
     return [*places.values()]
+
+
+def _descendants(pid: int) -> list[int]:
+    found = []
+    for path in Path(f'/proc/{pid}/task').glob('*/children'):
+        for child in map(int, path.read_text().split()):
+            found += [child, *_descendants(child)]
+    return found
 
 
 def _how_ended(code: int) -> str:

@@ -161,9 +161,12 @@ def test_after(): pass
 
 def test_a_test_that_waits_for_ever_fails_and_says_where(tmp_path):
     stuck = """
-import threading
+import subprocess, threading
 def test_before(): pass
-def test_stuck(): wait_for_nothing()
+def test_stuck():
+    with open('left', 'w') as file:
+        print(subprocess.Popen(['sh', '-c', 'sleep 600; true']).pid, file=file)
+    wait_for_nothing()
 def test_after(): pass
 def wait_for_nothing():
     threading.Event().wait()
@@ -173,6 +176,7 @@ def wait_for_nothing():
         assert '1 failed, 4 passed' in program.output
         assert 'test_stuck was killed by SIGABRT' in program.output
         assert 'in wait_for_nothing' in program.output
+    assert ends(int((tmp_path / 'left').read_text()))
 
 
 def test_an_interrupted_run_tears_down_and_leaves_nobody(tmp_path):
