@@ -4,8 +4,8 @@
 ``mutants.py [FOLDER ...] [--sample N] [--seed S]``: whether a test would notice a fault.
 
 A mutant is the package with one place of its code changed, as a slip of a hand would: a sign, a
-comparison, a number, a condition. The tests of its folder in ``test/unit`` and ``test/ros`` are to
-fail with it.
+comparison, a number, a condition. The tests of its folder in ``test/unit`` are to fail with it; for
+what stands in a folder ``ros``, those in ``test/ros``.
 Places are drawn at random, of each folder as many, and at each place one of the changes that
 cosmic-ray knows. Nothing is written: a mutant is a process that imports the changed text.
 """
@@ -39,7 +39,7 @@ FOLDERS = ('control', 'controllers', 'model', 'simulation')
 JUDGED = ROOT / 'test/judged_mutants.txt'
 """Mutants that no test can tell apart: what they change makes no difference that counts."""
 _NOT_ASKED = {'VariableReplacer', 'VariableInserter', 'RemoveDecorator'}
-_TIMEOUT = 300.0  # s
+_TIMEOUT = 200.0  # s
 Place = tuple[int, int]
 
 
@@ -123,10 +123,12 @@ def drawn(folder: str, sample: int, seed: int) -> list[Mutant]:
     return [dice.choice(each) for _, each in dice.sample(places, min(sample, len(places)))]
 
 
-def is_noticed(mutant: Mutant, tests: Sequence[str]) -> bool:
+def is_noticed(mutant: Mutant) -> bool:
     """Return whether a test fails; one that never ends has noticed it too."""
+    _, folder, *inner = Path(mutant.file).parts
+    tests = f'test/{"ros" if "ros" in inner else "unit"}/{folder}'
     here = [sys.executable, __file__, '--run', mutant.file, mutant.operator]
-    command = [*here, str(mutant.occurrence), '-x', '-q', '-p', 'no:cacheprovider', *tests]
+    command = [*here, str(mutant.occurrence), '-x', '-q', '-p', 'no:cacheprovider', tests]
     with subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, process_group=0
     ) as process:
@@ -191,12 +193,10 @@ def main(arguments: Sequence[str]) -> int:
     known, rows, survivors = set(judged()), ['| folder | mutants | equal | noticed |'], 0
     rows.append('| --- | --: | --: | --: |')
     for folder in args.folders:
-        both = (f'test/{cost}/{folder}' for cost in ('unit', 'ros'))
-        tests = [each for each in both if (ROOT / each).exists()]
         mutants = drawn(folder, args.sample, args.seed)
         counts: Counter[str] = Counter()
         with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-            results = pool.map(lambda mutant, tests=tests: is_noticed(mutant, tests), mutants)
+            results = pool.map(is_noticed, mutants)
             for mutant, noticed in zip(mutants, results, strict=True):
                 equal = not noticed and mutant.change() in known
                 counts['noticed' if noticed else 'equal' if equal else 'survived'] += 1
