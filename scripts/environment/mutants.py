@@ -4,8 +4,8 @@
 ``mutants.py [FOLDER ...] [--sample N] [--seed S]``: whether a test would notice a fault.
 
 A mutant is the package with one place of its code changed, as a slip of a hand would: a sign, a
-comparison, a number, a condition. The tests of its folder in ``test/unit`` are to fail with it; for
-what stands in a folder ``ros``, those in ``test/ros``.
+comparison, a number, a condition. The tests of its folder in ``test/unit`` are to fail with it;
+for what stands in a folder ``ros``, those in ``test/ros``.
 Places are drawn at random, of each folder as many, and at each place one of the changes that
 cosmic-ray knows. Nothing is written: a mutant is a process that imports the changed text.
 """

@@ -176,7 +176,7 @@ def wait_for_nothing():
         assert '1 failed, 4 passed' in program.output
         assert 'test_stuck was killed by SIGABRT' in program.output
         assert 'in wait_for_nothing' in program.output
-    assert ends(int((tmp_path / 'left').read_text()))
+        assert ends(int((tmp_path / 'left').read_text()))
 
 
 def test_an_interrupted_run_tears_down_and_leaves_nobody(tmp_path):
