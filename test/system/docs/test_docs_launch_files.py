@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/launch_files.md: its two files, written, and its lines, typed."""
 
+import importlib
 import inspect
 import re
 
@@ -50,8 +51,13 @@ def test_its_test_passes_by_both_commands(tmp_path):
 
 def test_the_names_on_the_page_are_understood():
     text = PAGE.text.partition('## What is understood')[2].partition('Whatever else')[0]
+    importlib.import_module('controller_manager.launch_utils')
     known = {name for names in UNDERSTOOD.values() for name in names}
     processes = UNDERSTOOD['launch.actions']['ExecuteProcess']
-    known |= {'autostart', *inspect.signature(processes.__init__).parameters}
+    known |= {
+        'autostart',
+        'controller_manager.launch_utils',
+        *inspect.signature(processes.__init__).parameters,
+    }
     named = {*re.findall(r'`([^`]+)`', text)}
     assert {'Node', 'ComposableNode'} <= named <= known
