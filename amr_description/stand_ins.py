@@ -18,6 +18,7 @@ STAND_INS = {
     ('py_pubsub', 'listener'): 'listener',
     ('py_pubsub', 'talker'): 'talker',
     ('robot_localization', 'ekf_node'): 'ekf_node',
+    ('robot_localization', 'navsat_transform_node'): 'navsat_transform_node',
     ('robot_state_publisher', 'robot_state_publisher'): 'robot_state_publisher',
     ('ros_gz_sim', 'create'): 'create',
     ('teleop_twist_joy', 'teleop_node'): 'teleop_twist_joy',

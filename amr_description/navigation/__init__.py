@@ -29,6 +29,8 @@ module                         what it holds
 ``contract/``                  what Nav2 and slam_toolbox demand of a robot, as rules
 ``ros/``                       the face towards ROS
 
+``navsat.py``                  latitude and longitude ↔ metres, as navsat_transform_node has it
+
 ``ekf.py``                     the extended Kalman filter of robot_localization: 15 states
 ``ekf_estimator.py``           measurements through it in order, late ones too
 ``ekf_measurement.py``         what sensors say → measurements of its states

@@ -303,6 +303,7 @@ STAND_IN = """\
 exec {executable} "$@"
 """
 _OF_USERS = {'py_pubsub'}  # which the tutorial has them make
+_OF_MESSAGES = {'robot_localization'}  # which are in interfaces/, with what makes it a package
 _OF_TOOLS = {'ament_copyright', 'colcon_amr_description'}
 
 LOCAL_SETUP = """\
@@ -374,7 +375,7 @@ def stand_ins(table: str, executable: str) -> dict[Path, str]:
     }
     found = {}
     imported = {name.partition('.')[0] for name in (*MODULES, *LAUNCH_MODULES)} - _OF_TOOLS
-    for package in sorted(imported | {package for package, _ in pairs}):
+    for package in sorted((imported | {package for package, _ in pairs}) - _OF_MESSAGES):
         found[Path('share/ament_index/resource_index/packages', package)] = STANDS_IN
         found[Path('share', package, 'package.xml')] = PACKAGE_XML.format(package=package)
     for (package, name), ours in pairs.items():

@@ -37,7 +37,7 @@ FEW_LINES = 80
 # two threads as types, slow pages; a mux and passthrough in the chain; launch files (commands at
 # their time, joysticks, tried one by one, sources not built, functions that spawn controllers,
 # beside the original);
-# Python halves of C++ packages; what clients of Nav2 ask; bags of SQLite;
+# Python halves of C++ packages; what clients of Nav2 ask; bags of SQLite; fixes of satellites;
 # Python packages of ROS, with the many names of the originals:
 # nav2_simple_commander, cv_bridge, laser_geometry, rosidl_runtime_py, tf_transformations,
 # diagnostic_updater, rosbag2_py (four of its names are also the bag's), launch_testing (14
@@ -46,13 +46,13 @@ FEW_LINES = 80
 # and actions, on the page. Of helpers: a host of both, fakes of processes, of a late manager,
 # clients of markers, a base with a dock, evo and KISS-ICP, colours of workers.
 BUDGETS = {
-    'modules': 880,
-    'code lines': 102_581,
+    'modules': 882,
+    'code lines': 103_154,
     'small modules of one importer beside them': 37,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 28_127,
+    'code lines of helpers in test files': 28_214,
 }
 
 BASE = {

@@ -15,9 +15,9 @@ name                      type                                         QoS
 ``/diagnostics``          with ``print_diagnostics``                   reliable, depth 1
 ========================  ===========================================  =========================
 
-Services: ``enable`` and ``reset``, std_srvs/Empty. Names, types, parameters and rules are those of
-robot_localization 3.8 (Jazzy). Its services ``set_pose`` and ``toggle`` are not offered, as their
-types are of that package, which is not here: the topic ``set_pose`` does what the first does.
+Services: ``enable`` and ``reset``, std_srvs/Empty; ``set_pose`` SetPose and ``toggle``
+ToggleFilterProcessing, robot_localization/srv. Names, types, parameters and rules are those of
+robot_localization 3.8 (Jazzy).
 """
 
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, TwistStamped
@@ -32,6 +32,7 @@ from rclpy.qos import QoSProfile, QoSReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import ClockType, Time
 from rclpy.timer import Timer
+from robot_localization.srv import SetPose, ToggleFilterProcessing
 from std_srvs.srv import Empty
 
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
@@ -85,6 +86,7 @@ class EkfNode(Node):
         self._reader = InputReader(self._settings, self._estimator, self._lookup, self._complain)
         self._outputs = Outputs(self, self._settings, QoSOverridingOptions(PUBLISHER_POLICIES))
         self._is_enabled = not self._settings.is_on('disabled_at_startup')
+        self._takes_measurements = True
         self._last_published = -1
         self._missing: dict[str, int] = {}
         self._jumps = TimeJumpFilter()
@@ -151,6 +153,8 @@ class EkfNode(Node):
     def _serve(self) -> None:
         self.create_service(Empty, 'enable', self._on_enable)
         self.create_service(Empty, 'reset', self._on_reset)
+        self.create_service(SetPose, 'set_pose', self._on_set_pose_request)
+        self.create_service(ToggleFilterProcessing, 'toggle', self._on_toggle)
 
     def _new_timer(self) -> Timer:
         return self.create_timer(1.0 / self._settings.number('frequency'), self._update)
@@ -234,6 +238,27 @@ class EkfNode(Node):
         covariance[6:, 6:] = np.eye(9) * 1e-6
         self._estimator.set_state(values.values, covariance, now)
 
+    def _on_set_pose_request(
+        self, request: SetPose.Request, response: SetPose.Response
+    ) -> SetPose.Response:
+        self._on_set_pose(request.pose)
+        return response
+
+    def _on_toggle(
+        self, request: ToggleFilterProcessing.Request, response: ToggleFilterProcessing.Response
+    ) -> ToggleFilterProcessing.Response:
+        """Take measurements again, or drop them while the last state is published."""
+        response.status = request.on != self._takes_measurements
+        self._takes_measurements = request.on
+        word = 'on' if request.on else 'off'
+        if response.status:
+            self.get_logger().info(f'Toggling filter measurement filtering to {word}.')
+        else:
+            self.get_logger().warning(
+                f'Service was called to toggle filter processing {word}, but it is {word} already'
+            )
+        return response
+
     def _on_enable(self, request: Empty.Request, response: Empty.Response) -> Empty.Response:
         if self._is_enabled:
             self.get_logger().warning(
@@ -286,7 +311,10 @@ class EkfNode(Node):
             return
         now = self.get_clock().now().nanoseconds
         self._jumps.observe(now)
-        self._estimator.integrate(now)
+        if self._takes_measurements:
+            self._estimator.integrate(now)
+        else:
+            self._estimator.clear()
         if self._estimator.filter.is_initialized:
             self._publish()
         elapsed = (self.get_clock().now().nanoseconds - now) / NANOSECONDS

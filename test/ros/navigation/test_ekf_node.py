@@ -18,6 +18,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from robot_localization.srv import SetPose, ToggleFilterProcessing
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Imu
 from std_srvs.srv import Empty
@@ -251,6 +252,10 @@ def test_services(filter_with):
     graph.send('odom', odometry(vx=1.0), 15.0)
     graph.until(lambda: graph.odometry[-1].pose.pose.position.x == 4.0, 'not set')
     assert graph.odometry[-1].twist.twist.linear.x == 0.0
+    moved = SetPose.Request(pose=pose)
+    moved.pose.pose.pose.position.x = 5.0
+    graph.ask(SetPose, 'set_pose', moved)
+    graph.until(lambda: graph.odometry[-1].pose.pose.position.x == 5.0, 'not set')
     graph.ask(Empty, 'reset', Empty.Request())
     count = len(graph.odometry)
     graph.send('odom', odometry(vx=2.0), 20.0)
@@ -258,6 +263,23 @@ def test_services(filter_with):
     # Anew: the first measurement is taken as it is.
     assert found.twist.twist.linear.x == 2.0
     assert len(graph.odometry) > count
+
+
+def test_measurements_are_dropped_while_it_is_toggled_off(filter_with):
+    graph = filter_with(odom0='odom', odom0_config=WHEELS)
+    graph.send('odom', odometry(vx=1.0), 1.0)
+    graph.filtered(1.0)
+    off, on = (ToggleFilterProcessing.Request(on=each) for each in (False, True))
+    answers = [graph.ask(ToggleFilterProcessing, 'toggle', each).status for each in (off, off)]
+    assert answers == [True, False]
+    graph.said('Service was called to toggle filter processing off, but it is off already')
+    graph.send('odom', odometry(vx=3.0), 2.0)
+    since = graph.time
+    graph.until(lambda: graph.time > since + NANOSECONDS, 'time')
+    assert graph.ask(ToggleFilterProcessing, 'toggle', on).status
+    graph.send('odom', odometry(vx=1.0), 3.0)
+    assert graph.filtered(3.0).twist.twist.linear.x == pytest.approx(1.0)
+    assert all(nanoseconds(each.header.stamp) != 2 * NANOSECONDS for each in graph.odometry)
 
 
 @pytest.mark.parametrize(

@@ -171,7 +171,8 @@ def test_what_stands_in_for_others_of_a_package_is_told(only_ours):
     result = ros2('run', 'robot_localization', 'ukf_node', AMENT_PREFIX_PATH=str(only_ours))
     assert result.returncode == 1
     assert result.stderr == (
-        "Package 'robot_localization' not found; of it there are here: ekf_node\n"
+        "Package 'robot_localization' not found; of it there are here: ekf_node, "
+        'navsat_transform_node\n'
     )
 
 

@@ -93,5 +93,14 @@ def test_wheels_and_imu_are_one_odometry(terminal):
 def test_it_starts_beside_any_robot(terminal):
     with terminal() as shell:
         shell.start(line_of(CHAPTER, 'ros2 run robot_localization'))
-        shell.see("running 'ekf_node' of amr_description")
+        rclpy.init(args=[])
+        node = Node('who_looks_for_the_filter')
+        try:
+            end = node.get_clock().now().nanoseconds + PATIENCE * NANOSECONDS
+            while 'ekf_filter_node' not in node.get_node_names():
+                assert node.get_clock().now().nanoseconds < end, node.get_node_names()
+                rclpy.spin_once(node, timeout_sec=0.1)
+        finally:
+            node.destroy_node()
+            rclpy.try_shutdown()
         shell.interrupt()

@@ -203,12 +203,6 @@ def test_slam_toolbox(share):
             r'urdf_launch_display.launch.py:1\d: Argument "jsp_gui" provided value "maybe" is not '
             r"valid. Valid options are: \['true', 'false'\]",
         ),
-        (
-            'robot_localization_dual_ekf',
-            {},
-            r"dual_ekf.launch.py:1\d: package 'robot_localization' not found; of it there are "
-            r"here: \['ekf_node'\]",
-        ),
     ],
 )
 def test_what_cannot_be_started_is_refused_in_one_line(share, name, arguments, refusal):
