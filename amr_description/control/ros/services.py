@@ -159,7 +159,7 @@ class ManagerServices:
         response: srv.SetHardwareComponentState.Response,
     ) -> srv.SetHardwareComponentState.Response:
         target = request.target_state
-        state = _state_of(target.id, target.label)
+        state = state_of(target.id, target.label)
         response.ok = await self._succeeds(self._requests.set_component_state(request.name, state))
         for component in self._requests.manager.snapshot.components:
             if component.name == request.name:
@@ -177,10 +177,10 @@ class ManagerServices:
         return True
 
 
-def _state_of(number: int, label: str) -> LifecycleState:
+def state_of(number: int, label: str) -> LifecycleState:
     """Return the state that a request names by its number, or by its label if that is 0."""
     for state in LifecycleState:
-        if state == number and number or state.label == label:
+        if (state if number else state.label) == (number or label):
             return state
     return LifecycleState.UNKNOWN
 

@@ -10,7 +10,13 @@ import threading
 
 import pytest
 
-from amr_description.control.ros.realtime import set_time_slice, SHORT_SLICE, USUAL_SLICE
+from amr_description.control.ros.realtime import (
+    set_cpu_affinity,
+    set_time_slice,
+    SHORT_SLICE,
+    USUAL_SLICE,
+)
+from amr_description.log import Severity
 
 GETATTR = {'x86_64': 315, 'aarch64': 275}
 
@@ -75,3 +81,13 @@ def test_a_thread_of_another_policy_keeps_it():
         return set_time_slice(SHORT_SLICE), os.sched_getscheduler(0)
 
     assert in_thread(batch) == (False, os.SCHED_BATCH)
+
+
+@pytest.mark.parametrize('core', [-1, 4096, 2**70])
+def test_cores_that_are_not_there_are_named_and_all_may_be_used(core):
+    before, said = os.sched_getaffinity(0), []
+    set_cpu_affinity([core], lambda *line: said.append(line))
+    ((severity, text),) = said
+    assert severity == Severity.WARN
+    assert text.startswith(f'Could not set the CPU affinity [{core}]: ')
+    assert os.sched_getaffinity(0) == before

@@ -352,6 +352,26 @@ def limiter_of(limits, *names):
     return JointLimiter('j', limits, cells | others, states, log), cells, states, log
 
 
+@pytest.mark.parametrize(
+    ('name', 'given', 'bounds'),
+    [
+        ('position', {'position': (-1.0, 2.0)}, (-1.0, 2.0)),
+        ('position', {'position': (-1.0, 2.0), 'velocity': 3.0}, None),
+        ('velocity', {'velocity': 3.0}, (-3.0, 3.0)),
+        ('velocity', {'velocity': 3.0, 'position': (-1.0, 2.0)}, None),
+        ('velocity', {'velocity': 3.0, 'acceleration': 6.0}, None),
+        ('effort', {'effort': 4.0}, (-4.0, 4.0)),
+        ('effort', {'effort': 4.0, 'velocity': 3.0}, None),
+        ('acceleration', {'acceleration': 6.0}, (-6.0, 6.0)),
+        ('acceleration', {'acceleration': 6.0, 'deceleration': 5.0}, None),
+        ('jerk', {'jerk': 7.0}, (-7.0, 7.0)),
+    ],
+)
+def test_bounds_are_fixed_where_they_hang_on_nothing_else(name, given, bounds):
+    limiter, *_ = limiter_of(JointLimits(**given), name)
+    assert limiter.fixed_bounds() == (bounds and {f'j/{name}': bounds})
+
+
 def test_a_command_that_is_not_set_stays_so():
     limiter, cells, _, log = limiter_of(ARM, 'position', 'velocity')
     limiter.enforce(0.1)

@@ -16,6 +16,7 @@ from amr_description.controllers.drives.mecanum_drive_controller import (
     MecanumDriveParameters,
     MecanumKinematics,
 )
+from amr_description.controllers.drives.odometry import LEAST_PERIOD
 from amr_description.errors import ParameterError
 from amr_description.log import Severity
 from amr_description.parameters import build
@@ -177,6 +178,14 @@ def test_deactivation_stops_and_keeps_the_pose():
     robot.controller.reset(0)
     robot.update()
     assert robot.pose() == (0.0, 0.0, 0.0)
+
+
+def test_a_period_that_is_too_short_to_be_one_leaves_the_pose():
+    robot = bench()
+    robot.drive(1.0)
+    before = robot.pose()
+    robot.controller.update(robot.time + 1, LEAST_PERIOD - 1)
+    assert robot.pose() == before
 
 
 def test_a_state_that_is_not_there_leaves_the_pose():

@@ -149,6 +149,14 @@ def test_batteries_are_published_one_by_one_and_together():
     assert both.location == 'left, right'
 
 
+@pytest.mark.parametrize('voltage', [0.0, math.nan])
+def test_a_battery_without_a_voltage_is_not_there(voltage):
+    bench = Bench(BATTERY, batteries=['a'])
+    bench.read(voltage)
+    (battery,) = bench.sent['~/raw_battery_states'][0].batteries
+    assert battery.present is False
+
+
 def test_one_battery_by_the_old_name_of_its_parameter():
     bench = Bench(BATTERY, sensor_name='pack', design_capacity=100.0)
     assert bench.controller.state_interfaces().names == ('pack/voltage',)
