@@ -44,7 +44,8 @@ FEW_LINES = 80
 # modules), urdf_parser_py (15 of its names are also the model's), image_geometry, ros2node.api,
 # interactive_markers, turtlebot4_navigation; what RViz draws (markers, poses), forms of services
 # and actions, on the page. Of helpers: a host of both, fakes of processes, of a late manager,
-# clients of markers, a base with a dock, evo and KISS-ICP, colours of workers.
+# clients of markers, a base with a dock, evo and KISS-ICP, colours of workers, tables of cases that
+# mutants went through.
 BUDGETS = {
     'modules': 882,
     'code lines': 103_154,
@@ -52,7 +53,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 28_214,
+    'code lines of helpers in test files': 28_241,
 }
 
 BASE = {
