@@ -96,8 +96,8 @@ class FieldReader:
         return shape.values(data)
 
 
-def why_no_number(layout: FieldGroup, path: str) -> str:
-    """Return why messages have no single number at a path, in a line; '': they have."""
+def why_no_number(layout: FieldGroup, path: str, *, or_text: bool = False) -> str:
+    """Return why messages have no single number (or text) at a path, in a line; '': they have."""
     try:
         steps = steps_of(layout, path)
     except AmrError as error:
@@ -105,7 +105,8 @@ def why_no_number(layout: FieldGroup, path: str) -> str:
     if None in steps:
         return _no_path(path)
     part = part_at(layout, steps)
-    return '' if isinstance(part, Number) else f"'{shorten(path)}' is no number, but {_kind(part)}"
+    fits = isinstance(part, Number) or (or_text and isinstance(part, Text))
+    return '' if fits else f"'{shorten(path)}' is no number, but {_kind(part)}"
 
 
 def steps_of(layout: FieldGroup, path: str) -> list[Step]:

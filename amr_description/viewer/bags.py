@@ -7,6 +7,7 @@ What a bag holds is sent as a graph is: robots, states, samples. ``time`` of a s
 last ``/clock`` of the bag, if it has one, else the time at which its messages were received.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
@@ -116,6 +117,7 @@ class SeriesData:
 
     stamps: str  #: f64, s, little-endian, in base64; of the header, else as states have their time
     values: str  #: likewise; NaN: there is no such element
+    names: Mapping[str, str]  #: of the values of a state, as in Values
 
 
 BagRequest: TypeAlias = (

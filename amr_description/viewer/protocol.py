@@ -532,6 +532,8 @@ class Values:
     #: the number of the first message: the one before ended before it, or messages were lost
     first: int
     faults: Mapping[str, str]  #: path -> why there is no number, in one line
+    #: path of a state -> value -> its name: a truth, a constant, or the text that it stands for
+    names: Mapping[str, Mapping[str, str]]
 
 
 @dataclass(frozen=True, slots=True)

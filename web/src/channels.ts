@@ -25,7 +25,11 @@ export interface FieldBatch {
   values: Float64Array; // NaN: the message has no such element
   lost: number; // messages before these that never came
   rate: number | null; // messages per second of the topic
+  names: Names; // of the values of a state
 }
+
+/** The names of values of a state, by the values as texts; none: it is a number. */
+export type Names = Readonly<Record<string, string>>;
 
 export interface FieldFollower {
   take(batch: FieldBatch): void;
@@ -121,7 +125,7 @@ export class Channels {
         if (fault !== undefined) {
           each.fail(fault);
         } else if (values !== undefined) {
-          each.take({ stamps, values, lost, rate });
+          each.take({ stamps, values, lost, rate, names: head.names[path] ?? {} });
         }
       }
     }

@@ -522,6 +522,8 @@ export interface Values {
   first: number;
   /** path -> why there is no number, in one line */
   faults: Record<string, string>;
+  /** path of a state -> value -> its name: a truth, a constant, or the text that it stands for */
+  names: Record<string, Record<string, string>>;
 }
 
 /** In place of a sample: why the last message cannot be shown. */
@@ -978,6 +980,8 @@ export interface SeriesData {
   stamps: string;
   /** likewise; NaN: there is no such element */
   values: string;
+  /** of the values of a state, as in Values */
+  names: Record<string, string>;
 }
 
 /** What pages ask about bags. */

@@ -23,7 +23,7 @@ function sample(head: Head, after: Uint8Array): Sample {
 function values(paths: string[], columns: number[][], first = 0, faults = {}): Sample {
   const count = columns[0]?.length ?? 0;
   return sample(
-    { type: 'values', origin: ORIGIN, paths, count, first, faults },
+    { type: 'values', origin: ORIGIN, paths, count, first, faults, names: {} },
     new Uint8Array(new Float64Array(columns.flat()).buffer),
   );
 }
@@ -113,7 +113,7 @@ test('what is broken is refused', () => {
   channels.plot('/odom', 'x', follower());
   channels.follow('/odom', { take: () => {}, fail: () => {} });
   const short = sample(
-    { type: 'values', origin: ORIGIN, paths: ['x'], count: 2, first: 0, faults: {} },
+    { type: 'values', origin: ORIGIN, paths: ['x'], count: 2, first: 0, faults: {}, names: {} },
     new Uint8Array(24),
   );
   assert.throws(() => channels.take(short), BadState);

@@ -73,10 +73,9 @@ test('an open topic echoes its messages; a number of it is plotted', async () =>
     floats: new Float32Array(),
   } satisfies Sample);
   await drawn();
-  assert.deepEqual(texts(panel, '.leaf .number'), ['1.5', 'NaN']);
-  assert.deepEqual(texts(panel, '.leaf .words'), ['<i>']);
+  assert.deepEqual(texts(panel, '.leaf .number'), ['1.5', 'NaN', '<i>']);
   const numbers = [...panel.element.querySelectorAll('.leaf .number')];
-  assert.deepEqual(numbers.map((each) => each.getAttribute('aria-pressed')), ['true', 'false']);
+  assert.deepEqual(numbers.map((each) => each.getAttribute('aria-pressed')), ['true', 'false', 'false']);
   click(numbers[1]);
   assert.deepEqual(plotted, ['/odom:a.x[1]']);
   click(panel.element.querySelector('.topic'));

@@ -80,7 +80,7 @@ test('numbers of one vector that are ticked share a chart; others, and what is f
 });
 
 test('a layout is the same after it was kept or sent as a link', () => {
-  const text = 'linear,/odom:twist.twist.linear.x@-1..1;/scan:ranges%5B3%5D;wheels@..2.5';
+  const text = 'linear,/odom:twist.twist.linear.x@-1..1;/scan:ranges%5B3%5D;wheels@..2.5;xy,/a:x,/a:y~lowpass=0.5';
   assert.equal(encode(decode(text)), text);
   assert.equal(encode(layout(text).charts), text);
   const shared = layout(USUAL, text);
@@ -110,6 +110,7 @@ test('of a link that is none, nothing is taken', () => {
   }
   assert.equal(encode(decode('linear@2..1')), 'linear', 'bounds in disorder are none');
   assert.equal(encode(decode('linear@a..b')), 'linear');
+  assert.equal(encode(decode('xy;xy,linear')), 'linear', 'over what, is not said');
   const much = Array.from({ length: 99 }, (_, index) => `/t${index}:x`);
   assert.equal(decode(much.join(';')).length, 12);
   assert.equal(decode(much.join(','))[0]!.fields.length, 12);

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
+import type uPlot from 'uplot';
 import { connectedApp, drawn, graphOf, robotInfo, texts, type TestApp } from './page';
+import type { Names } from '../src/channels';
 import type { FieldFeed } from '../src/plots/following';
+import { decode } from '../src/plots/layout';
+import { chartLines } from '../src/plots/lines';
+import { lanes, overFirst, type Painting } from '../src/plots/painting';
 import { Recorder } from '../src/plots/recorder';
+import { Track } from '../src/plots/series';
 
 type Follower = Parameters<FieldFeed['plot']>[2];
 
@@ -30,8 +36,8 @@ class Feed implements FieldFeed {
     return () => void this.followers.delete(`${topic}:${path}`);
   }
 
-  say(name: string, stamps: number[], values: number[], lost = 0): void {
-    const batch = { stamps: Float64Array.from(stamps), values: Float64Array.from(values), lost };
+  say(name: string, stamps: number[], values: number[], lost = 0, names: Names = {}): void {
+    const batch = { stamps: Float64Array.from(stamps), values: Float64Array.from(values), lost, names };
     this.followers.get(name)?.take(batch);
   }
 }
@@ -125,7 +131,34 @@ test('what is made of a field is chosen in the settings of its chart, and follow
   assert.deepEqual([...feed.followers.keys()], [], 'both numbers are let go');
 });
 
-test('while one searches, topics are offered, then the numbers of those that are meant', async () => {
+test('states are said by their names, and forgotten where a node numbers its texts otherwise', () => {
+  const { feed, panel, recorder } = plots();
+  panel.toggle(field);
+  const names = { 0: 'idle', 1: 'driving' };
+  feed.say(SPEED, [1, 2], [0, 1], 0, names);
+  panel.repaint();
+  assert.equal(texts(panel, '.chart:last-child td')[0], 'driving');
+  feed.say(SPEED, [3], [2], 0, { ...names, 2: 'lost' });
+  assert.equal(recorder.series(undefined, field)?.first, 1);
+  feed.say(SPEED, [4], [0], 0, { 0: 'lost' });
+  assert.equal(recorder.series(undefined, field)?.first, 4);
+});
+
+test('a chart is drawn over its first field on demand', async () => {
+  const { panel } = plots();
+  panel.toggle(field);
+  const box = (): HTMLInputElement => panel.element.querySelector('.chart:last-child [type=checkbox]')!;
+  assert.equal(box().parentElement?.hidden, true, 'one field is over nothing');
+  panel.toggle({ topic: '/odom', path: 'twist.twist.linear.y' });
+  await drawn();
+  assert.equal(box().parentElement?.hidden, false);
+  box().click();
+  box().dispatchEvent(new Event('change', { bubbles: true }));
+  assert.match(panel.layout.text, /;xy,\/odom:twist\.twist\.linear\.x,\/odom:twist\.twist\.linear\.y$/);
+  assert.equal(texts(panel, '.chart:last-child .fine')[0], 'over linear.x');
+});
+
+test('while one searches, topics are offered, then numbers and texts of those that are meant', async () => {
   const { app, panel } = plots();
   const input = panel.element.querySelector('.plot-search input') as HTMLInputElement;
   assert.deepEqual(panel.watches, []);
@@ -149,7 +182,7 @@ test('while one searches, topics are offered, then the numbers of those that are
   ];
   app.say({ type: 'reply', id: asked()[0]!.id, ok: true, message: '', data, again: null });
   await drawn();
-  assert.deepEqual(texts(panel, 'datalist option'), ['/odom:twist.x', '/odom:covariance[0]']);
+  assert.deepEqual(texts(panel, 'datalist option'), ['/odom:frame', '/odom:twist.x', '/odom:covariance[0]']);
   type(panel, '/odom tw');
   await drawn();
   assert.deepEqual(texts(panel, 'datalist option'), ['/odom:twist.x']);
@@ -257,4 +290,55 @@ test('pausing holds what is seen while recording goes on; so does looking at ano
   place.dispatchEvent(Object.assign(new Event('keydown', { bubbles: true }), { key: '+' }));
   await drawn();
   assert.equal(pause.getAttribute('aria-pressed'), 'true', 'zoomed');
+});
+
+/** What is called on a canvas of a pixel a unit, in which a letter is one wide. */
+function calls({ paint }: Painting): [string, ...unknown[]][] {
+  const made: [string, ...unknown[]][] = [];
+  const ctx = new Proxy({}, {
+    get: (_, name: string) => (...given: unknown[]) => {
+      made.push([name, ...given]);
+      return { width: 10 * String(given[0]).length };
+    },
+  });
+  paint({ ctx, valToPos: (value: number, scale: string) => (scale === 'x' ? value : 100 - 50 * value) } as unknown as uPlot);
+  return made.filter(([name]) => name !== 'measureText');
+}
+
+function track(...samples: [number, number][]): Track {
+  const made = new Track();
+  samples.forEach(([time, value]) => made.push(time, value));
+  return made;
+}
+
+test('each state has a lane, in which each value lasts until the next', () => {
+  const names = { 0: 'idle', 1: 'a very long name' };
+  const about = chartLines(decode('/a:mode,/a:on')[0]!, [], () => names);
+  assert.equal(about.form, 'lanes');
+  const mode = track([0, 0], [100, 0], [200, 1], [230, NaN], [260, 0]);
+  const painting = lanes(about, ({ name }) => (name === 'mode' ? mode : null), [50, 300], 280);
+  assert.deepEqual([painting.x, painting.y], [[50, 300], [0, 2]]);
+  const made = calls(painting);
+  const spans = made.filter(([name], index) => name === 'fillRect' && index % 3 === 0).map(([, x, y, width]) => [x, y, width]);
+  assert.deepEqual(spans, [[50, 3, 150], [200, 3, 30], [260, 3, 20]]);
+  assert.deepEqual(made.filter(([name]) => name === 'fillText').map(([, text]) => text), ['mode: idle', 'a…', '']);
+});
+
+test('a number among states makes lines of all', () => {
+  const about = chartLines(decode('/a:mode,/a:x')[0]!, [], ({ path }) => (path === 'x' ? null : { 0: 'idle' }));
+  assert.equal(about.form, 'time');
+});
+
+test('fields are drawn over the first one, with gaps where one of them is not known', () => {
+  const about = chartLines(decode('xy,/a:x,/a:y')[0]!, [], () => null);
+  const known: Record<string, Track> = {
+    x: track([0, 10], [1, 20], [2, 30], [3, NaN], [4, 50]), y: track([0, 0], [1, 1], [2, 0], [3, 1], [4, 1]),
+  };
+  const painting = overFirst(about, ({ name }) => known[name]!, [0, 4])!;
+  assert.deepEqual(painting.y, [0, 1]);
+  const made = calls(painting).filter(([name]) => /To|arc/.test(name));
+  assert.deepEqual(made.map(([name, x, y]) => [name, x, y]), [
+    ['moveTo', 10, 100], ['lineTo', 20, 50], ['lineTo', 30, 100], ['moveTo', 50, 50], ['arc', 50, 50],
+  ]);
+  assert.equal(overFirst(about, () => null, [0, 4]), null);
 });

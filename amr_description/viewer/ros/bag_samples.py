@@ -164,4 +164,8 @@ def read_series(
             stamps.append(stamp or recorded.time(message.log_time))
             values.append(value)
     times, numbers = thinned(np.array(stamps, '<f8'), np.array(values, '<f8'), _MOST_VALUES)
-    return SeriesData(b64encode(times.tobytes()).decode(), b64encode(numbers.tobytes()).decode())
+    return SeriesData(
+        b64encode(times.tobytes()).decode(),
+        b64encode(numbers.tobytes()).decode(),
+        fields.names.get(field, {}),
+    )

@@ -2,20 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Any topic, of each message of which pages plot some numbers."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from rclpy.node import Node
 
-from amr_description.cdr.fields import FieldReader, NOT_THERE, why_no_number
-from amr_description.cdr.layouts import FieldGroup, Many, Number
+from amr_description.cdr.fields import FieldReader, NOT_THERE, part_at, steps_of, why_no_number
+from amr_description.cdr.layouts import FieldGroup, Many, Number, Text
 from amr_description.clock import NANOSECONDS
 from amr_description.errors import AmrError
 from amr_description.ros.layouts import layout_of
+from amr_description.ros.message_types import message_type
 from amr_description.ros.polled_topic import NumberedMessage
+from amr_description.text import shorten
 from amr_description.viewer.protocol import Origin, Values
+from amr_description.viewer.ros.forms import constants_of
 from amr_description.viewer.ros.message_feed import unreadable
 from amr_description.viewer.ros.source import SourceTopic, TopicSource
 from amr_description.viewer.ros.topic_rate import Rate
@@ -31,7 +35,44 @@ _PERIOD = 1 / 15
 """s between two samples, at least: each costs more than a message of it."""
 _AGAIN = 2.0
 """s until a page is told once more why there are no values."""
+_TRUTHS = {'0': 'false', '1': 'true'}
+_SMALL = {'int8', 'uint8', 'octet', 'char'}
+"""What enumerations usually are: of others only constants count that have the field's name."""
+_NO_ENUMERATIONS = {'float', 'double', 'long double'}
+_MOST_TEXTS = 100
+"""Of a field that have a value of their own; of more, the rest has one together."""
 _STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
+
+
+class StateNames:
+    """The names of the values at a path of messages, by the values as texts; '': none."""
+
+    def __init__(self, layout: FieldGroup, path: str) -> None:
+        steps = steps_of(layout, path)
+        part = part_at(layout, steps)
+        self.is_text = isinstance(part, Text)
+        self.names: dict[str, str] = {}
+        self._values: dict[str, float] = {}
+        if isinstance(part, Number) and part.name == 'boolean':
+            self.names = _TRUTHS
+        elif isinstance(part, Number) and part.name not in _NO_ENUMERATIONS:
+            group = part_at(layout, steps[:-1])
+            name = str(steps[-1])
+            if isinstance(group, FieldGroup):
+                self.names = _names_of_constants(group, name, is_small=part.name in _SMALL)
+
+    def value_of(self, text: str) -> float:
+        """Return the number that stands for a text."""
+        if (known := self._values.get(text)) is not None:
+            return known
+        value = float(min(len(self._values), _MOST_TEXTS))
+        if value < _MOST_TEXTS:
+            self._values[text] = value
+        self.names = {**self.names, f'{value:g}': shorten(text) if value < _MOST_TEXTS else '…'}
+        return value
+
+
+_NO_STATES: Mapping[str, StateNames] = MappingProxyType({})
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +84,13 @@ class Fields:
     """Why there is no number at a path."""
     read: Callable[[bytes], list[float]]
     """Returns the numbers, in the order of the paths; the first two are those of the stamp."""
+    states: dict[str, StateNames]
+    """The names of the values of those that have any."""
+
+    @property
+    def names(self) -> dict[str, dict[str, str]]:
+        """By the path of a state, the names of its values, as known now."""
+        return {path: each.names for path, each in self.states.items() if each.names}
 
 
 class FieldFeed:
@@ -83,7 +131,8 @@ class FieldFeed:
         """Plot these from now on."""
         wanted = tuple(sorted(paths))
         if self._topic is not None and (self._fields is None or self._fields.paths != wanted):
-            self._fields = fields_of(self._type, wanted)
+            known = {} if self._fields is None else self._fields.states
+            self._fields = fields_of(self._type, wanted, known)
 
     def take(self, now: float, *, is_wanted: bool) -> bytes | None:  # noqa: ARG002
         """Return a sample of all new messages; None: there are none."""
@@ -146,31 +195,43 @@ class FieldFeed:
             count,
             first,
             fields.faults,
+            fields.names,
         )
         columns = np.ascontiguousarray(table[:, 2 : 2 + path_count].T)
         return encode_sample(head, [stamps, columns])
 
 
-def fields_of(message_class: Any, paths: tuple[str, ...]) -> Fields:
-    """Return what reads these paths of the messages of a class; those that lead nowhere, too."""
+def fields_of(
+    message_class: Any, paths: tuple[str, ...], known: Mapping[str, StateNames] = _NO_STATES
+) -> Fields:
+    """
+    Return what reads these paths of the messages of a class; those that lead nowhere, too.
+
+    ``known``: the names of states of before, whose texts keep their numbers.
+    """
     layout = layout_of(message_class)
-    faults = {path: why for path in paths if (why := why_no_number(layout, path))}
+    faults = {path: why for path in paths if (why := why_no_number(layout, path, or_text=True))}
     stamp = () if why_no_number(layout, _STAMP[0]) else _STAMP
     good = [path for path in paths if path not in faults]
+    states = {path: known.get(path) or StateNames(layout, path) for path in good}
     read = FieldReader(layout, (*stamp, *good)).read
-    if stamp and not faults:
-        return Fields(paths, {}, read)
+    texts = [(2 + paths.index(path), states[path]) for path in good if states[path].is_text]
+    if stamp and not faults and not texts:
+        return Fields(paths, {}, read, states)
     places = [2 + paths.index(path) for path in good]
-    nothing = [0.0, 0.0, *(NOT_THERE for _ in paths)]
+    nothing: list[Any] = [0.0, 0.0, *(NOT_THERE for _ in paths)]
 
     def read_and_place(data: bytes) -> list[float]:
         values, found = nothing.copy(), read(data)
         values[: len(stamp)] = found[: len(stamp)]
         for place, value in zip(places, found[len(stamp) :], strict=True):
             values[place] = value
+        for place, state in texts:
+            if isinstance(values[place], str):
+                values[place] = state.value_of(values[place])
         return values
 
-    return Fields(paths, faults, read_and_place)
+    return Fields(paths, faults, read_and_place, states)
 
 
 def _is_large(layout: FieldGroup) -> bool:
@@ -179,3 +240,13 @@ def _is_large(layout: FieldGroup) -> bool:
         isinstance(field, Many) and isinstance(field.element, Number) and field.element.size == 1
         for _, field in layout.fields
     )
+
+
+def _names_of_constants(group: FieldGroup, name: str, *, is_small: bool) -> dict[str, str]:
+    found = constants_of(message_type(group.name), group, name)
+    names: dict[str, str] = {}
+    for constant, value in found.items():
+        is_own = constant.startswith(f'{name.upper()}_')
+        if isinstance(value, int) and (is_own or is_small):
+            names.setdefault(str(value), constant)
+    return names

@@ -3,6 +3,7 @@
 """What forms of messages have: fields with their defaults, and constants that stand for values."""
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 from amr_description.cdr.layouts import FieldGroup, Layout, Many, Text
@@ -31,23 +32,28 @@ def sent_type(name: str) -> Any:
 
 
 def _fields(layout: FieldGroup, example: Any) -> tuple[FieldInfo, ...]:
-    constants = _constants_of(type(example))
-    claimed = {
-        field: {name: value for name, value in constants.items() if _is_named_by(name, field)}
-        for field, _ in layout.fields
-    }
-    free = {
-        name: value
-        for name, value in constants.items()
-        if not any(name in of_field for of_field in claimed.values())
-    }
     return tuple(
-        _field(name, each, getattr(example, name), claimed[name] or free)
+        _field(name, each, getattr(example, name), constants_of(type(example), layout, name))
         for name, each in layout.fields
     )
 
 
-def _constants_of(kind: Any) -> dict[str, Any]:
+def constants_of(kind: Any, layout: FieldGroup, name: str) -> dict[str, Any]:
+    """Return constants of a message that may be values of a field: its own, else of no field."""
+    constants = _constants(kind)
+    claimed = {
+        field: {each: value for each, value in constants.items() if _is_named_by(each, field)}
+        for field, _ in layout.fields
+    }
+    return claimed[name] or {
+        each: value
+        for each, value in constants.items()
+        if not any(each in of_field for of_field in claimed.values())
+    }
+
+
+@cache
+def _constants(kind: Any) -> dict[str, Any]:
     """Return the constants of a message, by their values; not the defaults of its fields."""
     names = [each for each in dir(kind) if each.isupper() and each != 'SLOT_TYPES']
     found = {each: getattr(kind, each) for each in names if not each.endswith('__DEFAULT')}

@@ -7,17 +7,19 @@ import json
 import struct
 import time
 
+from diagnostic_msgs.msg import DiagnosticStatus
 import numpy as np
 import pytest
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from sensor_msgs.msg import Image, JointState
-from std_msgs.msg import Float64, Header, String
+from sensor_msgs.msg import Image, JointState, NavSatFix
+from std_msgs.msg import Bool, Float64, Header, String
 from support.ros_processes import PATIENCE
 from support.waiting import until
 
 from amr_description.viewer.backend import Watched
+from amr_description.viewer.ros.field_feed import fields_of
 from amr_description.viewer.ros.topic_feeds import TopicFeeds
 
 RELIABLE = ReliabilityPolicy.RELIABLE
@@ -200,6 +202,41 @@ def test_a_path_that_leads_nowhere_is_said_beside_those_that_do(feeds, publisher
     stamps, *columns = columns_of(head, rest).tolist()
     assert columns[1] == [1.5]
     assert (stamps, str(columns)) == ([RECEIVED], '[[nan], [1.5], [nan]]')
+
+
+def test_states_have_the_names_of_their_values(feeds, publisher):
+    topic = publisher(DiagnosticStatus, '/a')
+    show(feeds, topic, of('level', 'message', 'values[0].key'))
+    for level, text in ((b'\1', 'low'), (b'\0', 'full'), (b'\1', 'low')):
+        topic.publish(DiagnosticStatus(level=level, message=text))
+    found = []
+    while len(found) < 3:
+        head, rest = taken(feeds, 'values')
+        found += columns_of(head, rest)[1:3].T.tolist()
+    assert found == [[1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]
+    assert head['names'] == {
+        'level': {'0': 'OK', '1': 'WARN', '2': 'ERROR', '3': 'STALE'},
+        'message': {'0': 'low', '1': 'full'},
+    }
+    assert np.isnan(columns_of(head, rest)[3]).all(), 'there is no such element'
+    feeds.watch(of('message'))
+    topic.publish(DiagnosticStatus(message='full'))
+    head, rest = taken(feeds, 'values')
+    assert columns_of(head, rest)[1].tolist() == [1.0], 'texts keep their numbers'
+
+
+@pytest.mark.parametrize(
+    ('kind', 'path', 'names'),
+    [
+        (Bool, 'data', {'0': 'false', '1': 'true'}),
+        (Float64, 'data', {}),
+        (JointState, 'header.stamp.sec', {}),
+        (NavSatFix, 'status.status', {'-2', '-1', '0', '1', '2'}),
+        (NavSatFix, 'position_covariance_type', {'0', '1', '2', '3'}),
+    ],
+)
+def test_only_what_is_an_enumeration_has_names(kind, path, names):
+    assert {*fields_of(kind, (path,)).names.get(path, ())} == {*names}
 
 
 def test_paths_change_without_a_gap(feeds, publisher):

@@ -60,20 +60,20 @@ function Branch(props: FieldProps) {
     );
   }
   const number = numberOf(tree);
-  if (number !== null) {
+  if (number !== null || typeof tree === 'string') {
     return (
       <li class="leaf">
         <span class="field-name">{name}</span>
         <button
           type="button"
-          class="number"
+          class={number === null ? 'number words' : 'number'}
           title={`Plot ${topic}:${path}`}
           aria-pressed={plots.isPlotted({ topic, path })}
           draggable
           onClick={() => plots.toggle({ topic, path })}
           onDragStart={({ dataTransfer }) => dragField(dataTransfer, { topic, path })}
         >
-          {number}
+          {number ?? textOf(tree)}
         </button>
       </li>
     );

@@ -18,6 +18,7 @@ export interface ChartPort extends TimeHand {
   remove(): void;
   setBounds(bounds: Bounds): void;
   replace(field: Field, by: Field): void;
+  setXy(on: boolean): void;
 }
 
 /** What is shown: the time, and where in it the cursor is, as a share. */
@@ -53,6 +54,8 @@ export class Chart {
   private readonly part = h('div', { class: 'chart-part', hidden: true });
   private readonly made = h('div');
   private shownMade = ''; // of which fields
+  private readonly isXy = h('input', { type: 'checkbox', onchange: () => this.port.setXy(this.isXy.checked) });
+  private readonly xy = h('label', { class: 'chart-making' }, this.isXy, h('span', {}, 'Over the first, not over time'));
   private over: HTMLElement | null = null;
 
   constructor(
@@ -99,12 +102,13 @@ export class Chart {
         'plus and minus zoom, Home follows.',
     );
     this.legend.setLines(about.lines);
+    this.element.classList.toggle('states', about.form === 'lanes');
     this.showMade();
     this.drawing.setLines(about, spec.bounds);
   }
 
   show(read: Reader, shown: Shown, now: number, isUrgent: boolean): void {
-    this.drawing.show(read, shown.range, now, isUrgent);
+    this.drawing.show(read, shown.range, shown.latest, now, isUrgent);
     this.showCursor(read, shown);
   }
 
@@ -121,7 +125,10 @@ export class Chart {
   words(read: Reader, time: number): string {
     const { pixel } = this.drawing;
     return this.about.lines
-      .map(({ name, stroke }) => `${name} ${number(read(stroke.source)?.at(time) ?? Number.NaN, pixel)}`)
+      .map(({ name, stroke, names }) => {
+        const value = read(stroke.source)?.at(time) ?? Number.NaN;
+        return `${name} ${names?.[value] ?? number(value, pixel)}`;
+      })
       .join(', ');
   }
 
@@ -132,17 +139,19 @@ export class Chart {
     const time = cursor === null ? Math.min(to, latest) : from + cursor * (to - from);
     const isNow = !isHeld && cursor === null;
     const isKnown = time <= latest; // behind that, nothing has come yet
-    const values = this.about.lines.map(({ stroke, wanted, field }) => {
+    const values = this.about.lines.map(({ stroke, wanted, field, names }) => {
       const series = read(stroke.source);
+      const value = (isKnown ? series?.at(time) : null) ?? Number.NaN;
       return {
-        value: (isKnown ? series?.at(time) : null) ?? Number.NaN,
+        value,
+        name: names?.[value] ?? null,
         wanted: (wanted === null || !isKnown ? null : read(wanted.source)?.at(time)) ?? Number.NaN,
         isOld: isNow && field !== null && series !== null && latest - series.latest > OLD,
         fault: field === null ? null : faultOf(field),
       };
     });
     this.legend.show(values, this.drawing.pixel);
-    this.line.hidden = cursor === null;
+    this.line.hidden = cursor === null || this.about.form === 'xy';
     if (cursor !== null) {
       const width = this.over?.clientWidth ?? 0;
       this.line.style.transform = `translateX(${cursor * width}px)`;
@@ -185,12 +194,14 @@ export class Chart {
 
   /** Of each field, what is made of it. */
   private showMade(): void {
-    const { fields } = this.spec;
+    const { kind, fields, isXy } = this.spec;
     const now = fields.map(nameOf).join();
     if (now !== this.shownMade) {
       this.shownMade = now;
-      this.made.replaceChildren(...fields.map((field, index) => this.makingOf(field, index)));
+      this.made.replaceChildren(...fields.map((field, index) => this.makingOf(field, index)), this.xy);
+      this.xy.hidden = kind !== null || fields.length < 2;
     }
+    this.isXy.checked = isXy;
   }
 
   private makingOf(field: Field, index: number): HTMLElement {

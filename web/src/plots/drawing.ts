@@ -8,6 +8,7 @@ import { align } from './align';
 import { timeLabels, valueLabels, withinAxis } from './axis_labels';
 import type { Bounds } from './layout';
 import type { ChartLines, Source, Stroke } from './lines';
+import { lanes, overFirst, type Painting } from './painting';
 import type { Series } from './series';
 
 export type Reader = (source: Source) => Series | null;
@@ -15,6 +16,7 @@ export type Reader = (source: Source) => Series | null;
 const LEAST_HEIGHT = 50; // px
 const LEAST_STEPS = 50;
 const NONE = { show: false };
+const UNDRAWN: uPlot.Series = { points: NONE, paths: () => null }; // what is painted has its values alone
 const MOVING = 100; // ms between two drawings, at least
 const QUIET = 500; // ms, where nothing but the time goes on
 const AXIS = { height: 20, leastWidth: 34, digit: 6.6, space: 24 }; // px
@@ -35,6 +37,7 @@ export class Drawing {
   private range: readonly [number, number] = [0, 1];
   private strokes: (Stroke & { colour: string })[] = [];
   private edges: number[] = []; // values at both ends, which lines come from and go to
+  private painting: Painting | null = null; // where no lines over time are drawn
   private isFlat = false;
   private drawn: Drawn | null = null;
 
@@ -55,6 +58,8 @@ export class Drawing {
       [this.about, this.bounds] = [about, bounds];
       this.sortStrokes();
       this.data = [[]];
+      this.edges = [];
+      this.painting = null;
       this.rebuild();
     }
   }
@@ -67,9 +72,9 @@ export class Drawing {
 
   /**
    * Draw what is read from the first to the second time (s), if that looks different from what is
-   * drawn. `now`: ms; `isUrgent`: somebody waits for it.
+   * drawn. `known`: s, of the latest value of all charts; `now`: ms; `isUrgent`: somebody waits for it.
    */
-  show(read: Reader, range: readonly [number, number], now: number, isUrgent: boolean): void {
+  show(read: Reader, range: readonly [number, number], known: number, now: number, isUrgent: boolean): void {
     const series = this.strokes.map(({ source }) => read(source));
     const latest = series.map((one) => one?.latest ?? Number.NaN);
     const values = series.map((one, index) => one?.at(latest[index] ?? 0) ?? Number.NaN);
@@ -79,6 +84,10 @@ export class Drawing {
     }
     this.drawn = next;
     this.range = range;
+    if (this.about.form !== 'time') {
+      this.paint(read, known);
+      return;
+    }
     const { data, spreads } = align(series, ...range, this.steps);
     this.data = data;
     this.edges = series
@@ -86,6 +95,25 @@ export class Drawing {
       .filter((value) => !Number.isNaN(value));
     this.plot.setData(data);
     this.isFlat = Math.max(...spreads) < this.pixel;
+  }
+
+  private paint(read: Reader, known: number): void {
+    const make = this.about.form === 'xy' ? overFirst : lanes;
+    this.painting = make(this.about, ({ stroke }) => read(stroke.source), this.range, known);
+    const { x, y } = this.painting ?? { x: this.range, y: [0, 1] };
+    this.range = x;
+    this.data = [[...x], [...y]];
+    this.plot?.setData(this.data);
+  }
+
+  private paintOn(plot: uPlot): void {
+    const { ctx, bbox } = plot;
+    ctx.save(); // uPlot sets no colour twice
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    this.painting?.paint(plot);
+    ctx.restore();
   }
 
   /** Make the plot anew: its colours are those of another theme. */
@@ -108,8 +136,9 @@ export class Drawing {
         resolve(take(plot.ctx.canvas));
         queueMicrotask(() => plot.destroy());
       };
-      const options = { ...this.options(), width, height, hooks: { draw: [drawn] } };
-      new uPlot(options, this.data, h('div'));
+      const { hooks, ...options } = this.options();
+      const draw = [...(hooks?.draw ?? []), drawn] as uPlot.Hooks.Arrays['draw'];
+      new uPlot({ ...options, width, height, hooks: { draw } }, this.data, h('div'));
     });
   }
 
@@ -166,6 +195,8 @@ export class Drawing {
 
   private options(): Omit<uPlot.Options, 'width' | 'height'> {
     const grid = { stroke: colour('grid'), width: 1 };
+    const { form } = this.about;
+    const isLanes = form === 'lanes';
     const axis = { stroke: colour('muted'), grid, ticks: { show: false }, font: '11px system-ui' };
     return {
       scales: {
@@ -179,19 +210,21 @@ export class Drawing {
           gap: 3,
           space: 44,
           // One beside the least value would run into it.
-          values: (plot, times) =>
-            withinAxis(timeLabels(times), times.map((time) => plot.valToPos(time, 'x')), AXIS.digit),
+          values: (plot, times, _axis, _space, step) =>
+            withinAxis(form === 'xy' ? valueLabels(times, step) : timeLabels(times), times.map((time) => plot.valToPos(time, 'x')), AXIS.digit),
         },
         {
           ...axis,
           gap: 4,
+          show: !isLanes,
           space: (_plot, _axis, _least, _most, height) => Math.max(AXIS.space, height / MOST_VALUES),
           values: (_plot, values, _axis, _space, step) => valueLabels(values, step),
           size: (_plot, values) =>
             Math.max(AXIS.leastWidth, 12 + AXIS.digit * Math.max(0, ...longest(values))),
         },
       ],
-      series: [{}, ...this.strokes.map(seriesOf)],
+      series: [{}, ...(form === 'time' ? this.strokes.map(seriesOf) : [UNDRAWN])],
+      hooks: { draw: [(plot) => this.paintOn(plot)] },
       cursor: NONE,
       legend: NONE,
     };
@@ -199,7 +232,10 @@ export class Drawing {
 
   /** Somewhat more than the values take, and never less than the chart's least span. */
   private spanOf(least: number | null, most: number | null): [number, number] {
-    const { always, leastSpan } = this.about;
+    const { always, leastSpan, form } = this.about;
+    if (form === 'lanes') {
+      return [0, this.about.lines.length];
+    }
     const seen = [...this.edges, ...(always ?? []), ...[least, most].filter((each) => each !== null)];
     const [low, high] = seen.length === 0 ? [0, 0] : [Math.min(...seen), Math.max(...seen)];
     const largest = Math.max(Math.abs(low), Math.abs(high));

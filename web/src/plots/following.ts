@@ -1,6 +1,7 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** Has the fields that are plotted come, and keeps what comes, or what is made of it. */
+import type { Names } from '../channels';
 import { nameOf, type Field } from './field';
 import { make } from './making';
 import type { Recorder } from './recorder';
@@ -11,7 +12,7 @@ export interface FieldFeed {
     topic: string,
     path: string,
     follower: {
-      take(batch: { stamps: Float64Array; values: Float64Array; lost: number }): void;
+      take(batch: { stamps: Float64Array; values: Float64Array; lost: number; names: Names }): void;
       fail(reason: string): void;
     },
   ): () => void;
@@ -20,6 +21,7 @@ export interface FieldFeed {
 interface Followed {
   end: () => void;
   fault: string | null;
+  names: Names | undefined;
 }
 
 export class Following {
@@ -47,6 +49,12 @@ export class Following {
     this.recorder.keepFields(fields);
   }
 
+  /** The names of the values of a state; null: it is none, or what is made of one; undefined: nothing has come. */
+  namesOf(field: Field): Names | null | undefined {
+    const names = this.followed.get(nameOf(field))?.names;
+    return names === undefined || (field.steps === undefined && Object.keys(names).length > 0) ? names : null;
+  }
+
   /** Why there are no numbers of a field, in one line; null: none was said. */
   faultOf(field: Field): string | null {
     return this.followed.get(nameOf(field))?.fault ?? null;
@@ -54,11 +62,15 @@ export class Following {
 
   private begin(field: Field): void {
     const ends: (() => void)[] = [];
-    const followed: Followed = { end: () => ends.forEach((end) => end()), fault: null };
+    const followed: Followed = { end: () => ends.forEach((end) => end()), fault: null, names: undefined };
     const follow = ({ topic, path }: Field, take: (time: number, value: number) => void): void => {
       const end = this.feed.plot(topic, path, {
-        take: ({ stamps, values, lost }) => {
+        take: ({ stamps, values, lost, names }) => {
           followed.fault = null;
+          if (Object.entries(followed.names ?? {}).some(([value, name]) => name !== (names[value] ?? name))) {
+            this.recorder.forget(field); // another node has come, and numbers its texts otherwise
+          }
+          followed.names = names;
           const [first] = stamps;
           if (lost > 0 && first !== undefined) {
             take(first, Number.NaN); // no line over what never came

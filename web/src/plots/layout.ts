@@ -16,18 +16,20 @@ export interface ChartSpec {
   kind: Kind | null;
   fields: readonly Field[];
   bounds: Bounds;
+  isXy: boolean; // over the first field in place of time
 }
 
 const MOST_CHARTS = 12;
 const MOST_FIELDS = 12; // a chart
 const DEFAULT = KINDS.join(';');
 const FREE: Bounds = [null, null];
+const XY = 'xy'; // in an address, before the fields
 
 /** "linear;wheels,/odom:twist.twist.linear.x@-1..1": charts, their lines, their bounds. */
 export function encode(charts: readonly ChartSpec[]): string {
   return charts
-    .map(({ kind, fields, bounds: [least, most] }) => {
-      const lines = [...(kind === null ? [] : [kind]), ...fields.map(nameOf)].map(escaped);
+    .map(({ kind, fields, bounds: [least, most], isXy }) => {
+      const lines = [...(isXy ? [XY] : []), ...(kind === null ? [] : [kind]), ...fields.map(nameOf)].map(escaped);
       const bounds = least === null && most === null ? '' : `@${least ?? ''}..${most ?? ''}`;
       return lines.join(',') + bounds;
     })
@@ -45,7 +47,7 @@ export function decode(text: string): ChartSpec[] {
       const fields = names.flatMap((name) => parseField(name) ?? []);
       return kind === null && fields.length === 0
         ? []
-        : [specOf(kind, fields.slice(0, MOST_FIELDS), boundsOf(bounds))];
+        : [specOf(kind, fields.slice(0, MOST_FIELDS), boundsOf(bounds), kind === null && names.includes(XY))];
     })
     .slice(0, MOST_CHARTS);
 }
@@ -86,7 +88,7 @@ export class PlotLayout {
       if (this.charts.length >= MOST_CHARTS) {
         return `There are ${MOST_CHARTS} charts, as many as there may be: remove one.`;
       }
-      this.set([...this.charts, specOf(null, [field], FREE)]);
+      this.set([...this.charts, specOf(null, [field], FREE, false)]);
       return null;
     }
     if (there.fields.some((each) => isSame(each, field))) {
@@ -137,6 +139,10 @@ export class PlotLayout {
     this.change(chart, { bounds: isOrdered(bounds) ? bounds : FREE });
   }
 
+  setXy(chart: number, isXy: boolean): void {
+    this.change(chart, { isXy });
+  }
+
   reset(): void {
     this.set(decode(DEFAULT));
   }
@@ -145,8 +151,9 @@ export class PlotLayout {
   private chartOfSiblings(field: Field): number | null {
     const wanted = nameOf(parentOf(field));
     const chart = this.charts.find(
-      ({ kind, fields }) =>
+      ({ kind, fields, isXy }) =>
         kind === null &&
+        !isXy &&
         fields.length < MOST_FIELDS &&
         fields.every((each) => nameOf(parentOf(each)) === wanted),
     );
@@ -165,9 +172,9 @@ export class PlotLayout {
 
 let made = 0;
 
-function specOf(kind: Kind | null, fields: readonly Field[], bounds: Bounds): ChartSpec {
+function specOf(kind: Kind | null, fields: readonly Field[], bounds: Bounds, isXy: boolean): ChartSpec {
   made += 1;
-  return { id: made, kind, fields, bounds };
+  return { id: made, kind, fields, bounds, isXy };
 }
 
 function isSame(one: Field, other: Field): boolean {

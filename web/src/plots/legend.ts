@@ -11,6 +11,7 @@ const LARGE = 1e6;
 
 interface Shown {
   value: number;
+  name: string | null; // of the value, where it is a state
   wanted: number; // what it ought to be
   isOld: boolean; // nothing has come for a while
   fault: string | null; // why there is no value
@@ -42,10 +43,10 @@ export class Legend {
   }
 
   show(values: readonly Shown[], pixel: number): void {
-    for (const [index, { value, wanted, isOld, fault }] of values.entries()) {
+    for (const [index, { value, name, wanted, isOld, fault }] of values.entries()) {
       const row = this.rows[index];
       if (row !== undefined) {
-        setText(row.value, fault ?? number(value, pixel));
+        setText(row.value, fault ?? name ?? number(value, pixel));
         row.element.classList.toggle('fault', fault !== null);
         row.element.classList.toggle('old', isOld);
         if (row.wanted !== null) {

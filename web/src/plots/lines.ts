@@ -1,6 +1,7 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
 /** The lines of a chart: what each shows, its name, and how it is told from one that it lies on. */
+import type { Names } from '../channels';
 import { SOURCES } from '../readings';
 import { nameOf, parentOf, shortNames, stepsText, type Field } from './field';
 import type { ChartSpec, Kind } from './layout';
@@ -22,6 +23,7 @@ export interface Line {
   colour: string; // the name of a colour of the style sheet
   stroke: Stroke;
   wanted: Stroke | null; // what it ought to be
+  names: Names | null; // of its values, where it is a state
   field: Field | null; // what is taken out to take it out; null: it stays
   columns: readonly string[]; // names in a table: of the stroke, and of what it ought to be
 }
@@ -32,6 +34,7 @@ export interface ChartLines {
   lines: Line[];
   always: readonly [number, number] | null; // values always in view
   leastSpan: number; // of the values, so that noise at rest does not fill the plot
+  form: 'time' | 'xy' | 'lanes'; // numbers over time, over the first of them, or states side by side
 }
 
 const COLOURS = 6;
@@ -40,21 +43,28 @@ const THICKER = 0.9; // px, each line than the one that lies on it
 const DASH = [7, 4];
 const WANTED_DASH = [4, 3];
 
-const ABOUT: Record<Kind, Omit<ChartLines, 'lines'>> = {
+const ABOUT: Record<Kind, Omit<ChartLines, 'lines' | 'form'>> = {
   linear: { title: 'Linear velocity', unit: 'm/s', always: null, leastSpan: 0.2 },
   angular: { title: 'Angular velocity', unit: 'rad/s', always: null, leastSpan: 0.2 },
   wheels: { title: 'Wheel speeds', unit: 'rad/s', always: null, leastSpan: 0.2 },
   factor: { title: 'Real-time factor', unit: 'x real time', always: [0, 1], leastSpan: 0.2 },
 };
 
-/** What a chart shows of a robot with these wheels. */
-export function chartLines({ kind, fields }: ChartSpec, wheels: readonly string[]): ChartLines {
+type NamesOf = (field: Field) => Names | null | undefined; // undefined: nothing of it has come
+
+/** What a chart shows of a robot with these wheels. Where all are states, they are lanes. */
+export function chartLines(spec: ChartSpec, wheels: readonly string[], namesOf: NamesOf): ChartLines {
+  const { kind, fields } = spec;
   const own = kind === null ? [] : ownLines(kind, wheels);
-  const lines = [...own, ...fieldLines(fields, kind === null ? 0 : own.length)];
-  return { ...(kind === null ? aboutFields(fields) : ABOUT[kind]), lines };
+  const lines = [...own, ...fieldLines(fields, kind === null ? 0 : own.length, namesOf)];
+  const isXy = spec.isXy && fields.length > 1;
+  const isStates = kind === null && lines.some(({ names }) => names !== null) && !fields.map(namesOf).includes(null);
+  const form = isXy ? 'xy' : isStates ? 'lanes' : 'time';
+  const about = kind === null ? aboutFields(fields) : ABOUT[kind];
+  return { ...about, ...(isXy && { unit: `over ${lines[0]?.name}` }), lines, form };
 }
 
-function aboutFields(fields: readonly Field[]): Omit<ChartLines, 'lines'> {
+function aboutFields(fields: readonly Field[]): Omit<ChartLines, 'lines' | 'form'> {
   const topics = [...new Set(fields.map(({ topic }) => topic))];
   const parents = new Set(fields.map((field) => nameOf(parentOf(field))));
   const [parent] = parents.size === 1 ? fields.map(parentOf) : [];
@@ -94,7 +104,7 @@ function ownLines(kind: Kind, wheels: readonly string[]): Line[] {
   }
 }
 
-function fieldLines(fields: readonly Field[], before: number): Line[] {
+function fieldLines(fields: readonly Field[], before: number, namesOf: NamesOf): Line[] {
   const names = shortNames(fields);
   return fields.map((field, index) => {
     const stroke = strokeOf(field, index, fields.length);
@@ -102,6 +112,7 @@ function fieldLines(fields: readonly Field[], before: number): Line[] {
       ...plain(names[index] ?? field.path, `wheel-${(index + before) % COLOURS}`, field),
       stroke: before > 0 ? { ...stroke, dash: DASH } : stroke,
       title: nameOf(field),
+      names: namesOf(field) ?? null,
       field,
       columns: [nameOf(field)],
     };
@@ -110,7 +121,7 @@ function fieldLines(fields: readonly Field[], before: number): Line[] {
 
 function plain(name: string, colour: string, source: Source): Line {
   const stroke = { source, width: THIN, dash: [], step: false };
-  return { name, title: name, colour, stroke, wanted: null, field: null, columns: [name] };
+  return { name, title: name, colour, stroke, wanted: null, names: null, field: null, columns: [name] };
 }
 
 /** What truly is lies widest below, what was wanted is a thin line of steps on it. */

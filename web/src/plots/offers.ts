@@ -50,7 +50,7 @@ export class Offers {
   private async ask(kind: string): Promise<void> {
     const { ok, data } = await this.app.connection.request({ type: 'definition', message: kind });
     if (ok) {
-      const paths = numbersOf(data as FieldInfo[], '').slice(0, MOST_PATHS);
+      const paths = leavesOf(data as FieldInfo[], '').slice(0, MOST_PATHS);
       this.paths.value = new Map(this.paths.value).set(kind, paths);
     } else {
       this.asked.delete(kind); // such as without a connection: the next key asks again
@@ -66,13 +66,13 @@ function has(name: string, word: string): boolean {
   return name.toLowerCase().includes(word.toLowerCase());
 }
 
-/** The paths of all numbers; of arrays, those of the first element. */
-function numbersOf(fields: readonly FieldInfo[], before: string): string[] {
+/** The paths of all numbers and strings; of arrays, those of the first element. */
+function leavesOf(fields: readonly FieldInfo[], before: string): string[] {
   return fields.flatMap(({ name, kind, length, fields: inner }) => {
     const path = `${before}${name}${length === null ? '' : '[0]'}`;
     if (inner.length > 0) {
-      return numbersOf(inner, `${path}.`);
+      return leavesOf(inner, `${path}.`);
     }
-    return kind.includes('/') || kind.includes('string') ? [] : [path];
+    return kind.includes('/') || kind === 'wstring' ? [] : [path];
   });
 }

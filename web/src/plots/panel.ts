@@ -5,6 +5,7 @@ import { effect, signal, untracked } from '@preact/signals';
 import { render } from 'preact';
 import { forgetLink, linkPart, shareLink } from '../address';
 import type { App, Panel } from '../app';
+import type { Names } from '../channels';
 import { h, setText } from '../dom';
 import type { Part } from '../protocol';
 import { recall, recallNumber, remember } from '../remember';
@@ -48,7 +49,7 @@ export class PlotsPanel implements Panel {
   private readonly charts = new Map<number, Chart>();
   private readonly heldAt = signal<string | null>(null); // in words
   private readonly target = signal<{ id: number; name: string } | null>(null);
-  private wheels = ''; // of the robot that is shown
+  private known = ''; // of what charts are made: the wheels of the robot, and which fields are states
   private held: Recorder | null = null;
   private cursor: number | null = null; // a share of what is seen
   private sayLater: ReturnType<typeof setTimeout> | undefined;
@@ -155,7 +156,7 @@ export class PlotsPanel implements Panel {
     const { charts } = this.layout;
     const added: HTMLElement[] = [];
     const wheels = this.recorder.of(this.robot)?.wheels ?? [];
-    this.wheels = wheels.join();
+    this.known = this.knownNow;
     for (const [id, chart] of [...this.charts]) {
       if (!charts.some((spec) => spec.id === id)) {
         chart.element.remove();
@@ -163,7 +164,7 @@ export class PlotsPanel implements Panel {
       }
     }
     for (const spec of charts) {
-      const about = chartLines(spec, wheels);
+      const about = chartLines(spec, wheels, this.namesOf);
       const chart = this.charts.get(spec.id) ?? new Chart(spec, about, this.portOf(spec.id));
       this.charts.set(spec.id, chart);
       chart.setLines(spec, about);
@@ -189,6 +190,13 @@ export class PlotsPanel implements Panel {
       return this.recorder.of(this.robot)?.wheels.length === 0;
     }
     return kind === 'factor' && this.app.store.simulator === null;
+  }
+
+  private readonly namesOf = (field: Field): Names | null | undefined => this.following.namesOf(field);
+
+  private get knownNow(): string {
+    const fields = this.layout.charts.flatMap((spec) => spec.fields);
+    return JSON.stringify([this.recorder.of(this.robot)?.wheels, fields.map((field) => this.namesOf(field) ?? String(this.namesOf(field)))]);
   }
 
   private get robot(): string | undefined {
@@ -227,7 +235,7 @@ export class PlotsPanel implements Panel {
   }
 
   private draw(isUrgent: boolean): void {
-    if (this.wheels !== (this.recorder.of(this.robot)?.wheels ?? []).join()) {
+    if (this.known !== this.knownNow) {
       this.arrange(); // which draws: the wheels are known with the first state of a robot
       return;
     }
@@ -262,6 +270,7 @@ export class PlotsPanel implements Panel {
       ask: () => (this.target.value = { id, name: this.charts.get(id)?.name ?? '' }),
       removeField: (field) => this.layout.removeField(id, field),
       remove: () => this.layout.removeChart(id),
+      setXy: (on) => this.layout.setXy(id, on),
       replace: (field, by) => this.layout.replaceField(id, field, by),
       setBounds: (bounds) => this.layout.setBounds(id, bounds),
       cursor: (share) => {

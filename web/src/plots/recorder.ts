@@ -102,6 +102,11 @@ export class Recorder {
     retain(this.tracks, fields.map(nameOf));
   }
 
+  /** Forget what was of a field. */
+  forget(field: Field): void {
+    this.tracks.delete(nameOf(field));
+  }
+
   /** Fields do not come any more: what comes next is no continuation. */
   interrupt(): void {
     for (const track of this.tracks.values()) {

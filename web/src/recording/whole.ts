@@ -69,9 +69,9 @@ export function seriesFeed({ connection }: Pick<App, 'connection'>): FieldFeed {
       let isWanted = true;
       void connection.request({ type: 'series', topic, path }).then(({ ok, message, data }) => {
         if (isWanted && ok) {
-          const { stamps, values } = data as SeriesData;
+          const { stamps, values, names } = data as SeriesData;
           const numbers = { stamps: numbersOf(stamps), values: numbersOf(values) };
-          follower.take({ ...numbers, lost: 0 });
+          follower.take({ ...numbers, lost: 0, names });
         } else if (isWanted) {
           follower.fail(message);
         }
