@@ -32,7 +32,7 @@ from typing import Any, ClassVar
 
 import yaml
 
-from amr_description.ament_index import path_of
+from amr_description.ament_index import hint_at, path_of
 from amr_description.errors import ParameterError
 from amr_description.text import closest_match, unwrap
 
@@ -297,7 +297,8 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     try:
         text = path.read_text(encoding='utf-8')
     except OSError as error:
-        raise ParameterError(f"parameter file '{path}': {error.strerror}") from error
+        hint = hint_at(path.absolute()) if isinstance(error, FileNotFoundError) else ''
+        raise ParameterError(f"parameter file '{path}': {error.strerror}{hint}") from error
     except UnicodeDecodeError as error:
         raise ParameterError(f"parameter file '{path}': not UTF-8 text ({error})") from error
     try:

@@ -103,5 +103,5 @@ def did_you_mean(word: str, known: Iterable[str], prefix: str = '') -> str:
         known: what would have been right; there may be thousands, so they are not listed.
         prefix: what each of them is shown with in front.
     """
-    close = [prefix + match for match in get_close_matches(word, list(known), 3)]
+    close = [prefix + match for match in get_close_matches(word, list(dict.fromkeys(known)), 3)]
     return f'; did you mean {" or ".join(close)}?' if close else ''

@@ -24,6 +24,15 @@ goal.pose.header.frame_id = 'map'
 goal.pose.pose.position.x, goal.pose.pose.position.y = x, y
 
 
+def show(message: Any) -> None:
+    """Print how far it is, once for each."""
+    global shown
+    text = f'{message.feedback.distance_remaining:.2f} m left'
+    if text != shown:
+        print(text)
+    shown = text
+
+
 def wait(future: Future) -> Any:
     """Return what is answered. Ctrl-C is noticed between two looks."""
     while not future.done():
@@ -36,12 +45,11 @@ rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
 node = rclpy.create_node('send_goal')
 client = ActionClient(node, NavigateToPose, 'navigate_to_pose')
 sent = None
+shown = ''
 try:
     while not client.wait_for_server(1.0):
         print('waiting for navigate_to_pose: scripts/run navigation, or Nav2')
-    sent = client.send_goal_async(
-        goal, lambda message: print(f'{message.feedback.distance_remaining:.2f} m left')
-    )
+    sent = client.send_goal_async(goal, show)
     result = wait(wait(sent).get_result_async()).result
 except KeyboardInterrupt:
     if sent is not None:

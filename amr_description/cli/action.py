@@ -11,6 +11,7 @@ from typing import Any, TYPE_CHECKING
 from amr_description import streams
 from amr_description.cli.arguments import positive_float
 from amr_description.errors import AmrError
+from amr_description.text import did_you_mean
 
 if TYPE_CHECKING:
     from rclpy.action import ActionClient
@@ -71,7 +72,8 @@ class SendGoalVerb:
         """Print goal, feedback and result; 0 if it succeeded."""
         from rclpy.action import ActionClient
 
-        from amr_description.cli.discovery import is_there_within
+        from amr_description.cli import actions
+        from amr_description.cli.discovery import explained_absence
         from amr_description.cli.names import full_name
         from amr_description.cli.session import open_session
         from amr_description.cli.yaml_input import read_value
@@ -87,9 +89,17 @@ class SendGoalVerb:
             client = ActionClient(session.node, action_class, name)
             print('Waiting for an action server to become available...')
             is_ready = ActionReadiness(session.node, client, action_class, name)
-            if not is_there_within(session, is_ready, args.timeout):
+
+            def explain() -> str:
+                others = actions.actions(session.node)
+                guess = did_you_mean(name, (each for each, _ in others if each != name))
+                return f'there is no action {name}{guess}' if guess else ''
+
+            reason = explained_absence(session, is_ready, args.timeout, explain)
+            if reason is not None:
                 raise AmrError(
                     f'Action server is not available after waiting {args.timeout:g} seconds.'
+                    + (f' {reason[0].upper()}{reason[1:]}' if reason else '')
                 )
             now = session.node.get_clock().now().to_msg()
             for stamp in stamps:

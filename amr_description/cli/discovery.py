@@ -17,6 +17,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Set
 import math
 import os
+import sys
 import time as wall
 
 from rclpy.node import Node
@@ -47,6 +48,8 @@ _POLL = 0.01  # s
 
 _PARAMETER_EVENTS = '/parameter_events'
 _HOST = 4  # bytes of a gid: vendor and host
+
+_HINT_AFTER = 2.0  # s of waiting until a hint is looked for, and between two looks
 
 
 def wait_for_discovery(
@@ -102,6 +105,41 @@ def is_there_within(session: Session, is_there: Callable[[], bool], timeout: flo
         return True
     wait_for_discovery(session, 0.0)
     return is_there()
+
+
+def explained_absence(
+    session: Session,
+    is_there: Callable[[], bool],
+    timeout: float | None,
+    explain: Callable[[], str],
+) -> str | None:
+    """
+    Wait for a server, and print why it is not there as soon as that is known.
+
+    Args:
+        session: Of the verb.
+        is_there: Returns whether it is.
+        timeout: How long to wait, s; None: without limit.
+        explain: Returns why it is not; '': that is not known.
+
+    Returns:
+        None: it is there. Else why not; '' where that was printed, or is not known.
+    """
+    left = math.inf if timeout is None else timeout
+    hint = ''
+    while True:
+        # Again until something is known: the server may be discovered after the first time.
+        wait = left if hint else min(left, _HINT_AFTER)
+        if session.spin(is_there, wait):
+            return None
+        left -= wait
+        if left <= 0.0:
+            break
+        if hint := explain():
+            print(f'WARNING: {hint}', file=sys.stderr)
+    if is_there_within(session, is_there, 0.0):
+        return None
+    return '' if hint else explain()
 
 
 class Count:

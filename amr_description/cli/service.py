@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     from amr_description.cli.session import Session
 
-_HINT_AFTER = 2.0  # s of waiting until a hint is looked for, and between two looks
-
 
 class CallVerb:
     """
@@ -185,32 +183,21 @@ def _call(session: 'Session', client: 'Client', request: Any, timeout: float | N
 
 def _wait_for_service(session: 'Session', client: 'Client', timeout: float | None) -> None:
     """Wait for the service, and print that. Raises AmrError."""
-    from amr_description.cli.discovery import is_there_within
+    from amr_description.cli.discovery import explained_absence
     from amr_description.ros.service_calls import ServiceReadiness
 
     is_ready = ServiceReadiness(session.node, client)
     if is_ready():
         return
     print('waiting for service to become available...')
-    left = float('inf') if timeout is None else timeout
-    hint = ''
-    while True:
-        # Again until something is known: the server may be discovered after the first time.
-        wait = left if hint else min(left, _HINT_AFTER)
-        if session.spin(is_ready, wait):
-            return
-        left -= wait
-        if left <= 0.0:
-            break
-        if hint := _explain_absence(session, client):
-            print(f'WARNING: {hint}', file=sys.stderr)
-    if is_there_within(session, is_ready, 0.0):
-        return
-    reason = '' if hint else _explain_absence(session, client)
-    raise AmrError(
-        f"Service '{client.service_name}' did not become available within {timeout:g} s"
-        + (f': {reason}' if reason else '')
+    reason = explained_absence(
+        session, is_ready, timeout, lambda: _explain_absence(session, client)
     )
+    if reason is not None:
+        raise AmrError(
+            f"Service '{client.service_name}' did not become available within {timeout:g} s"
+            + (f': {reason}' if reason else '')
+        )
 
 
 def _explain_absence(session: 'Session', client: 'Client') -> str:

@@ -16,6 +16,7 @@ from amr_description.controller_manager.spawner_files import (
     controller_entries,
     manager_parameters,
     not_found,
+    type_for_the_manager,
 )
 from amr_description.errors import ControllerError, NoAnswerError, ParameterError
 from amr_description.log import Log, Severity
@@ -235,11 +236,14 @@ class Spawner:
         if plan.ros_args:
             parameters['node_options_args'] = list(plan.ros_args)
         entries = controller_entries(name, files, self._manager.namespace)
+        elsewhere = type_for_the_manager(name, files, self._manager.namespace)
         if plan.files and not entries:
             if not self._manager.has_type(name):
-                raise ParameterError(not_found(name, files))
+                raise ParameterError('; '.join(filter(None, (not_found(name, files), elsewhere))))
             self._log(Severity.INFO, f'{not_found(name, files)}; the manager knows its type')
         parameters |= manager_parameters(name, entries)
+        if elsewhere and 'type' not in parameters and not self._manager.has_type(name):
+            raise ParameterError(f'Controller : {name} has no type: {elsewhere}')
         self._manager.set_parameters(name, parameters)
         for key, value in parameters.items():
             self._log_colored(CYAN, f'Setting controller param "{key}" to "{value}" for {name}')

@@ -45,6 +45,20 @@ def not_found(name: str, files: Sequence[str]) -> str:
     return f'Controller : {name} parameters not found in parameter files : {list(files)}'
 
 
+def type_for_the_manager(name: str, files: Sequence[str], namespace: str) -> str:
+    """Return what would do where a file has the type for the manager alone; '': none has."""
+    for path in files:
+        for section in sections(_read(name, path, namespace)):
+            entry = dict(section.parameters or {}).get(name)
+            if isinstance(entry, Mapping) and entry.get('type'):
+                return (
+                    f'{path} has a type for it in the section {section.pattern}, which only the '
+                    f'manager reads: write type: {entry["type"]} below '
+                    f'{name}: ros__parameters:, too'
+                )
+    return ''
+
+
 def manager_parameters(
     name: str, entries: Mapping[str, Mapping[str, Any]]
 ) -> dict[str, str | list[str]]:

@@ -85,6 +85,9 @@ class _FieldSetter:
         for name, value in values.items():
             if name not in slots:
                 unknown = f"'{type(message).__name__}' object has no attribute '{name}'"
+                field, colon, _ = str(name).partition(':')
+                if colon and field in slots:
+                    unknown += ': a blank is lacking behind the colon'
                 raise _misfit(f'{unknown}; it has {", ".join(names)}', path, AttributeError)
             self._set(message, name, slots[name], value, f'{path}.{name}'.lstrip('.'))
 

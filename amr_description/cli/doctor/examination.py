@@ -76,7 +76,8 @@ def examine_and_print(args: Namespace) -> int:
     elif found.unseen:
         print('The graph was not observed\n')
     else:
-        print(f'All {len(RULES)} checks passed\n')
+        warned = len({finding.rule for finding in found.findings})
+        print(f'All {len(RULES)} checks passed{f", {warned} with a warning" if warned else ""}\n')
     if args.report_failed and failed:
         print_reports(found.seen, families, packages=not args.exclude_packages)
     return found.exit_code(failed)

@@ -86,6 +86,11 @@ def test_auto_and_now_are_the_time_of_each_publication():
             "Value '1' is expected to be a dictionary but is a int (field linear)",
         ),
         (Twist, {'linear': {'q': 1}}, "'Vector3' object has no attribute 'q'; it has x, y, z"),
+        (
+            Twist,
+            {'linear': {'x:1': None}},
+            "'Vector3' object has no attribute 'x:1': a blank is lacking beh",
+        ),
         (Twist, {5: 1}, "'Twist' object has no attribute '5'; it has linear, angular"),
         (String, {'data': None}, 'expected a string, found nothing (field data)'),
         (String, {'data': {'a': 1}}, "expected a string, found '{'a': 1}' (field data)"),

@@ -113,10 +113,11 @@ def test_a_goal_that_cannot_be_canceled_is_told():
 
 def test_a_missing_server_is_waited_for():
     line = 'Waiting for an action server to become available...'
-    assert action('send_goal', '/nope', STEPS, '-t', '0.5') == (
+    assert action('send_goal', '/step', STEPS, '-t', '0.5') == (
         1,
         f'{line}\n',
-        'Action server is not available after waiting 0.5 seconds.\n',
+        'Action server is not available after waiting 0.5 seconds. '
+        'There is no action /step; did you mean /steps?\n',
     )
     with started('action', 'send_goal', '/nope', STEPS, terminal=True) as program:
         program.expect(line)

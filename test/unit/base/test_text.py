@@ -54,4 +54,5 @@ def test_similar_words_are_suggested():
     assert suggestion('odm', ['odom']) == "; did you mean 'odom'? known: odom"
     assert suggestion('x', []) == '; known: none'
     assert did_you_mean('odm', ['odom', 'map'], '/') == '; did you mean /odom?'
+    assert did_you_mean('odm', ['odom', 'odom']) == '; did you mean odom?'  # of two prefixes
     assert did_you_mean('x', ['odom']) == ''

@@ -11,6 +11,7 @@ from amr_description.controller_manager.spawner_files import (
     manager_parameters,
     not_found,
     parameters_of,
+    type_for_the_manager,
 )
 from amr_description.errors import ParameterError
 
@@ -95,6 +96,16 @@ def test_nothing_is_set_where_nothing_is_found(write):
     assert not_found('arm', [file]) == (
         f"Controller : arm parameters not found in parameter files : ['{file}']"
     )
+
+
+def test_a_type_that_only_the_manager_reads_is_said(write):
+    """As a file for both has it: spawner reads the section of the controller alone."""
+    manager = {'ros__parameters': {'update_rate': 50, 'arm': {'type': 'a/A'}}}
+    file = write('a.yaml', {'controller_manager': manager, 'arm': {'ros__parameters': {'x': 1}}})
+    said = type_for_the_manager('arm', [file], '/')
+    assert said.startswith(f'{file} has a type for it in the section /controller_manager')
+    assert said.endswith('write type: a/A below arm: ros__parameters:, too')
+    assert type_for_the_manager('leg', [file], '/') == ''
 
 
 @pytest.mark.parametrize(
