@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 import numpy as np
 from support.page import Page
 
+from amr_description.simulation.page_backend import SIMULATOR
 from amr_description.viewer.samples import HEAD_AT, SAMPLE_KIND
 from amr_description.viewer.states import HEADER_BYTES, POSE_FLOATS, STATE_KIND
 
@@ -69,7 +70,8 @@ def play(sim, page, act):
 
     def person():
         try:
-            page.wait(lambda: any(e['state'] == 'playing' for e in page.of('simulation')))
+            # The state that a page is told may be that of the play before, whose end it hears later.
+            page.wait(lambda: page.asked('set_factor', simulator=SIMULATOR, factor=1.0)[0])
             found.append(act())
         except BaseException as error:
             found.append(error)

@@ -27,7 +27,7 @@ from amr_description.sim.spawning import SpawnCode
 
 SERVICES = '/mujoco_sim'
 OTHER = 65534
-SILENCE = 1.0
+SILENCE = 10.0
 """s of the clock, on a busy machine."""
 ENDLESS = '<robot name="${9**9**9}" xmlns:xacro="http://www.ros.org/wiki/xacro"/>'
 COMMANDS = """<robot name="evil" xmlns:xacro="http://www.ros.org/wiki/xacro">
