@@ -59,3 +59,8 @@ export function freeName(taken: readonly string[], wanted = 'robot1'): string {
   }
   return name;
 }
+
+/** A time, s, at a cursor: "12.34 s", or of a clock, "14:03:20.15". */
+export function timeText(time: number): string {
+  return time > 1e8 ? `${clock(time)}${(time % 1).toFixed(2).slice(1)}` : `${time.toFixed(2)} s`;
+}

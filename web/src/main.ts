@@ -14,6 +14,7 @@ import { Pilot } from './drive/pilot';
 import { Header } from './header';
 import { inspect } from './inspect';
 import { navigationBar } from './navigation/bar';
+import { Past } from './past';
 import { controlPanel } from './panels/control';
 import { framesPanel } from './panels/frames';
 import { graphPanel } from './panels/graph';
@@ -73,6 +74,16 @@ const series = seriesFeed(app);
 const plots = new PlotsPanel(app, recorder, {
   plot: (...wish) => (store.recording === null ? channels : series).plot(...wish),
 });
+const past = new Past({
+  state: (state) => view.apply(state, past.isShown),
+  sample: (sample) => view.applySample(sample),
+  over: () => view.setPast(null),
+});
+plots.onTime = (time) => {
+  view.setPast(past.lookAt(time));
+  stream.touch(); // pictures are drawn with states
+};
+view.onNow = () => plots.follow();
 const sensors = sensorsPanel(app, sensing);
 const workspace = new Workspace();
 const drive = new DrivePanel(app, (small) => workspace.setDriveSmall(small));
@@ -113,7 +124,10 @@ store.watch(['graph', 'robot', 'model', 'diagnostics', 'findings'], () => {
   tabs.setBadge('health', healthToLookAt(store));
 });
 store.watch(['graph'], () => recorder.keep((store.graph?.robots ?? []).map(({ id }) => id)));
-store.watch(['reset'], () => recorder.clear());
+store.watch(['reset'], () => {
+  recorder.clear();
+  past.forget();
+});
 store.watch(['recording'], () => {
   recorder.setSpan(store.recording?.length ?? 0);
   view.scene?.setRoute([]);
@@ -165,16 +179,23 @@ connection.onLeft = (seconds) => {
 connection.onBinary = (buffer) => {
   if (isSample(buffer)) {
     const sample = stream.takeSample(buffer);
-    if (sample !== null && stream.attempt(() => channels.take(sample)) === false) {
+    const isSensed = sample !== null && stream.attempt(() => channels.take(sample)) === false;
+    if (isSensed && (store.recording !== null || past.takeSample(sample))) {
       view.applySample(sample);
     }
     return;
   }
   const state = stream.take(buffer);
-  if (state !== null) {
-    view.apply(state);
-    if (store.recording !== null) {
-      return; // all of it has come already
+  if (state !== null && store.recording !== null) {
+    view.apply(state); // all of it is kept already
+  } else if (state !== null) {
+    if (pilot.driving) {
+      plots.follow(); // nobody drives by what was
+    }
+    if (past.takeState(state)) {
+      view.apply(state);
+    } else {
+      view.keep(state);
     }
     recorder.record(state, store.simulation?.real_factor ?? null);
   }

@@ -43,6 +43,11 @@ export class StateStream {
     return state;
   }
 
+  /** What is shown has changed, with no state. */
+  touch(): void {
+    this.isFresh = this.latest !== null;
+  }
+
   /** The latest state, once after each state and each sample. */
   fresh(): State | null {
     const state = this.isFresh ? this.latest : null;

@@ -7,7 +7,7 @@ import type { Link } from './connection';
 import { commands } from './commands';
 import { button, h, setText, toggle } from './dom';
 import { keycaps } from './drive/keycaps';
-import { robotName } from './format';
+import { robotName, timeText } from './format';
 import { showOverflow } from './overflow';
 import type { Model, Part, SensorInfo } from './protocol';
 import type { State } from './state';
@@ -65,6 +65,15 @@ export class View {
     ' or the arrow keys to drive',
   );
   private readonly paused = h('div', { class: 'view-paused', hidden: true }, 'Paused: robots stand');
+  private readonly pastTime = h('span');
+  private readonly past = h(
+    'div',
+    { class: 'view-past', hidden: true },
+    this.pastTime,
+    button('Now', () => this.onNow(), { title: 'Show what is now, and what comes' }),
+  );
+  /** Somebody wants to see what is now. */
+  onNow: () => void = () => {};
   private unseen: Unseen | null = null; // why there has been nothing of the chosen robot for a while
   private looks = 0; // at which there was nothing of it, in a row
   private lookedAt = 0; // ms
@@ -74,7 +83,7 @@ export class View {
     private readonly app: App,
     private readonly sensing: Sensing,
   ) {
-    const foot = h('div', { class: 'view-foot' }, this.hint, this.paused);
+    const foot = h('div', { class: 'view-foot' }, this.hint, this.paused, this.past);
     this.element = h('main', { class: 'view', id: 'view' }, this.canvas, this.keys, this.words, foot);
     this.scene = this.makeScene();
     this.places = new Places(app.store, this.scene?.anchors ?? new Map<string, Matrix4>());
@@ -113,12 +122,25 @@ export class View {
     }
   }
 
-  /** Show a state. */
-  apply(state: State): void {
+  /** A state has come, while one of the past is shown. */
+  keep(state: State): void {
+    this.scene?.goOn(state);
+  }
+
+  /** Say which time of the past is shown, s; null: it is now. */
+  setPast(time: number | null): void {
+    this.past.hidden = time === null;
+    if (time !== null) {
+      setText(this.pastTime, `As it was at ${timeText(time)}`);
+    }
+  }
+
+  /** Show a state, of now or of the past. */
+  apply(state: State, isPast = false): void {
     if (this.scene === null) {
       this.places.update(state); // from the first state on: there odometry and truth agree
     } else {
-      this.scene.applyState(state);
+      this.scene.applyState(state, isPast);
       this.lookForRobot(this.scene, performance.now());
     }
   }

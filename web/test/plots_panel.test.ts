@@ -275,6 +275,8 @@ test('pausing holds what is seen while recording goes on; so does looking at ano
   const { feed, panel, recorder } = plots();
   panel.toggle(field);
   feed.say(SPEED, [1], [0.25]);
+  const told: (number | null)[] = [];
+  panel.onTime = (time) => told.push(time);
   const pause = panel.element.querySelector('.toggle') as HTMLButtonElement;
   pause.click();
   feed.say(SPEED, [2], [0.5]);
@@ -283,8 +285,9 @@ test('pausing holds what is seen while recording goes on; so does looking at ano
   assert.equal(pause.getAttribute('aria-pressed'), 'true');
   assert.equal(texts(panel, '.chart:last-child td')[0], '0.25');
   assert.equal(recorder.series(undefined, field)?.at(2), 0.5);
-  pause.click();
+  panel.follow();
   await drawn();
+  assert.deepEqual(told, [1, null], 'who shows other things of that time is told');
   assert.equal(texts(panel, '.chart:last-child td')[0], '0.50');
   const place = panel.element.querySelector('.chart:last-child .chart-plot') as HTMLElement;
   place.dispatchEvent(Object.assign(new Event('keydown', { bubbles: true }), { key: '+' }));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** One chart: its head, its legend, its lines, and the cursor on them. */
 import { button, h, setText } from '../dom';
-import { clock } from '../format';
+import { timeText } from '../format';
 import { Drawing, type Reader } from './drawing';
 import { droppedField, isField, nameOf, parseField, shortNames, stepsText, type Field } from './field';
 import { listenToGestures, type TimeHand } from './gestures';
@@ -270,9 +270,4 @@ export class Chart {
       }
     });
   }
-}
-
-/** A time, s, at a cursor: "12.34 s", or of a clock, "14:03:20.15". */
-export function timeText(time: number): string {
-  return time > 1e8 ? `${clock(time)}${(time % 1).toFixed(2).slice(1)}` : `${time.toFixed(2)} s`;
 }

@@ -10,7 +10,8 @@ import { h, setText } from '../dom';
 import type { Part } from '../protocol';
 import { recall, recallNumber, remember } from '../remember';
 import type { State } from '../state';
-import { Chart, timeText, type ChartPort } from './chart';
+import { timeText } from '../format';
+import { Chart, type ChartPort } from './chart';
 import type { Reader } from './drawing';
 import { droppedField, isField, parseField, type Field } from './field';
 import { Following, type FieldFeed } from './following';
@@ -56,6 +57,9 @@ export class PlotsPanel implements Panel {
   private isSearching = false;
   private last: ReturnType<typeof setTimeout> | undefined;
   private moving = 0; // the frame that will draw
+  /** Another time is looked at, s; null: that which comes. */
+  onTime: (time: number | null) => void = () => {};
+  private told: number | null = null;
   private now: number | null = null; // s, of the latest state of a recording
 
   constructor(
@@ -139,6 +143,13 @@ export class PlotsPanel implements Panel {
       chart.rebuild();
     }
     this.draw(true);
+  }
+
+  /** Follow what comes. */
+  follow(): void {
+    if (this.view.isHeld) {
+      this.pause(false);
+    }
   }
 
   /** Whether a field is plotted; followed, as it is a signal. */
@@ -243,6 +254,7 @@ export class PlotsPanel implements Panel {
     const isHeld = this.view.isHeld;
     const range = this.view.range(extent);
     const now = performance.now();
+    this.tellTime(range, extent.latest);
     for (const chart of this.shown) {
       const faultOf = (field: Field): string | null => this.following.faultOf(field);
       const shown = { range, latest: extent.latest, cursor, isHeld, playhead: this.now, faultOf };
@@ -251,6 +263,16 @@ export class PlotsPanel implements Panel {
     if (!isUrgent) {
       clearTimeout(this.last); // what is not due now is drawn even if nothing comes after it
       this.last = setTimeout(() => this.draw(true), AT_LAST);
+    }
+  }
+
+  /** Tell which time is looked at, where it is held: that of the cursor, else the last. */
+  private tellTime([from, to]: readonly [number, number], latest: number): void {
+    const isHeld = this.view.isHeld && this.app.store.recording === null;
+    const time = isHeld ? Math.min(from + (this.cursor ?? 1) * (to - from), latest) : null;
+    if (time !== this.told) {
+      this.told = time;
+      this.onTime(time);
     }
   }
 

@@ -149,15 +149,18 @@ export class Picture {
     this.state = this.drawn = null;
   }
 
-  /** Take over a state of the last layout. Returns whether it looks other than what is drawn. */
-  setState(state: State): boolean {
+  /**
+   * Take over a state of the last layout; with one of the past, trails do not go on. Returns whether it
+   * looks other than what is drawn.
+   */
+  setState(state: State, isPast = false): boolean {
     if (state.layout.id !== this.layout.id) {
       return false;
     }
     this.state = state;
     this.history.add(state);
     this.isWaiting = false;
-    if (!this.hasRoute) {
+    if (!isPast) {
       this.goOn(state);
     }
     return this.sensors.expire(state.time) || differ(this.drawn, state);
@@ -166,11 +169,18 @@ export class Picture {
   /** Draw the trails of these states, and no others any more. None: those of what comes. */
   setRoute(states: readonly State[]): void {
     this.clearTrails();
-    states.forEach((state) => this.goOn(state));
+    states.forEach((state) => this.extendTrails(state));
     this.hasRoute = states.length > 0;
   }
 
-  private goOn(state: State): void {
+  /** Have trails go on with a state, which need not be shown. */
+  goOn(state: State): void {
+    if (!this.hasRoute && state.layout.id === this.layout.id) {
+      this.extendTrails(state);
+    }
+  }
+
+  private extendTrails(state: State): void {
     for (const robot of state.robots) {
       if (this.robots.get(robot.id)?.trails.add(robot, state.time)) {
         this.forgetAnchor(robot.id);

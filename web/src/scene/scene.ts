@@ -111,11 +111,17 @@ export class Scene {
     this.picture.setLayout(layout);
   }
 
-  /** Take over a state. Those of another layout than the last are left out. */
-  applyState(state: State): void {
-    if (this.picture.setState(state)) {
+  /** Take over a state, of now or of the past. Those of another layout than the last are left out. */
+  applyState(state: State, isPast: boolean): void {
+    if (this.picture.setState(state, isPast)) {
       this.invalidate();
     }
+  }
+
+  /** Have trails go on with a state that is not shown. */
+  goOn(state: State): void {
+    this.picture.goOn(state);
+    this.invalidate();
   }
 
   /** Draw the trails of all of a recording; states that come do not go on with them. */
