@@ -70,7 +70,7 @@ def play(sim, page, act):
 
     def person():
         try:
-            # The state that a page is told may be that of the play before, whose end it hears later.
+            # The state that a page is told may be that of the play before.
             page.wait(lambda: page.asked('set_factor', simulator=SIMULATOR, factor=1.0)[0])
             found.append(act())
         except BaseException as error:

@@ -11,8 +11,11 @@ from support.control_fakes import FakeController, FakeHardware, make_manager, MS
 from amr_description.control.diagnostic_thresholds import DiagnosticThresholds
 from amr_description.control.diagnostics import Level, Report, reports, take_measurements
 from amr_description.control.interfaces import LifecycleState
+from amr_description.control.manager_parameters import ManagerTable
 from amr_description.control.switching import Strictness
+from amr_description.errors import ParameterError
 from amr_description.model.hardware_info import HardwareType
+from amr_description.parameters import build
 
 US = 1000
 """ns."""
@@ -285,3 +288,12 @@ def test_a_manager_without_hardware_reports_what_it_waits_for(has_description, l
     assert found[HARDWARE].level is Level.ERROR
     assert found[HARDWARE].message == 'Resource manager is not yet initialized!'
     assert found[CONTROLLERS].level is Level.ERROR
+
+
+def test_their_period_is_from_a_millisecond_to_a_day():
+    for period in (1e-3, 1.0, 1e5):
+        table = build(ManagerTable, {'diagnostic_updater.period': period})
+        assert table.diagnostic_updater.period == period
+    for period in (0.0, 9e-4, 1.1e5, math.nan):
+        with pytest.raises(ParameterError, match="'diagnostic_updater.period'"):
+            build(ManagerTable, {'diagnostic_updater.period': period})

@@ -50,6 +50,22 @@ def test_precision_is_that_of_quantized_noise():
     assert quantized == {'angular_velocity.x': Noise(precision=0.1)}
 
 
+def test_each_unit_is_published_with_the_covariance_of_its_own_noise():
+    def unit(name, deviation):
+        noise = on_x(f'<stddev>{deviation}</stddev>')
+        return f'<sensor name="{name}" type="imu"><imu>{noise}</imu></sensor>'
+
+    inside = unit('rear', 0.5) + unit('front', 0.1)
+    robot = parse(
+        f'<robot name="r"><link name="base"/><gazebo reference="base">{inside}</gazebo></robot>'
+    )
+    found = {
+        each.parameters['sensor_name']: each.parameters['static_covariance_angular_velocity'][0]
+        for each in translate(robot).controllers
+    }
+    assert found == pytest.approx({'rear': 0.25, 'front': 0.01})
+
+
 def test_without_noise_there_is_none():
     assert noise_of('') == {}
 

@@ -160,6 +160,9 @@ STEERED = """<left_steering_joint>sl_joint</left_steering_joint>
 <right_steering_joint>sr_joint</right_steering_joint>"""
 
 
+REAR = '<left_joint>rl_joint</left_joint><right_joint>rr_joint</right_joint>'
+
+
 def test_a_car_of_new_gazebo():
     wheels = ''.join(
         f'<{side}_joint>{name}_joint</{side}_joint>'
@@ -174,6 +177,9 @@ def test_a_car_of_new_gazebo():
         'plugin "gz::sim::systems::AckermannSteering": "rr_joint", "rl_joint" are driven; its '
         'other wheels roll freely',
     )
+    alone = four_wheels(plugin('', 'gz::sim::systems::AckermannSteering', REAR + STEERED))
+    assert alone.controllers[0].parameters['traction_joints_names'] == ['rr_joint', 'rl_joint']
+    assert alone.notes == ()
 
 
 def test_a_car_of_classic_is_measured():

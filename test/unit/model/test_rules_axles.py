@@ -273,3 +273,10 @@ def test_what_is_not_driven_is_no_pass(tmp_path, capsys):
     assert check_urdf.main([str(tmp_path / 'r.urdf'), '--drop', '--json']) == 0
     told = json.loads(capsys.readouterr().out)
     assert told['drop']['left_out'] == [reason]
+
+
+def test_it_is_said_how_far_outside_the_centre_of_mass_is(check):
+    # 5.5 kg, of which 1 kg is at x = 0.1 m, where the axle stands, and 0.2 kg at 0.12 m.
+    code, lines = check((ROOT / 'test/fixtures/urdf_broken/tips_over.urdf').read_text())
+    assert code == 0
+    assert any('found x 0.0225, y 0 m, 77 mm outside, ' in line for line in lines), lines
