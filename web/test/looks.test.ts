@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { Matrix4 } from 'three';
+import { Matrix4, Mesh, MeshBasicMaterial } from 'three';
 import { atFragment } from './page';
 import { fragment } from '../src/address';
 import type { Scan, SensorInfo } from '../src/protocol';
 import { remember } from '../src/remember';
 import type { Sample } from '../src/samples';
+import { Grids } from '../src/scene/grids';
 import type { DynamicPoints } from '../src/scene/points';
 import { SensorLayer } from '../src/scene/sensors';
 import { PALETTES } from '../src/scene/theme';
@@ -42,10 +43,10 @@ function drawn(layer: SensorLayer, ...stamps: number[]): number {
 
 test('a topic is drawn as its kind is at first, until something is chosen', () => {
   const looks = fresh();
-  assert.deepEqual(looks.of(SCAN), { size: 4, colouring: 'plain', opacity: 1, decay: 0 });
+  assert.deepEqual(looks.of(SCAN), { size: 4, colouring: 'plain', opacity: 1, decay: 0, order: 0 });
   looks.set('/scan', { size: 8 });
   looks.set('/scan', { colouring: 'height' });
-  assert.deepEqual(looks.of(SCAN), { size: 8, colouring: 'height', opacity: 1, decay: 0 });
+  assert.deepEqual(looks.of(SCAN), { size: 8, colouring: 'height', opacity: 1, decay: 0, order: 0 });
   assert.deepEqual([looks.isOwn('/scan'), looks.isOwn('/points')], [true, false]);
   looks.set('/scan', null);
   assert.equal(looks.of(SCAN).size, 4);
@@ -60,21 +61,22 @@ test('what was chosen is kept, and in the link', () => {
 
 test('a link says how, and what is out of bounds in it does no harm', () => {
   fresh();
-  atFragment('#looks=/scan:size.900,colouring.height;/map:opacity.x;nothing;/a b:size.2;/c:colour.1');
+  atFragment('#looks=/scan:size.900,colouring.height,order.-11;/map:opacity.x;nothing;/a b:size.2;/c:colour.1');
   const looks = new Looks();
-  assert.deepEqual(looks.of(SCAN), { size: 20, colouring: 'height', opacity: 1, decay: 0 });
+  assert.deepEqual(looks.of(SCAN), { size: 20, colouring: 'height', opacity: 1, decay: 0, order: -10 });
   assert.equal(looks.of({ topic: '/map', kind: 'map' }).opacity, 1);
   assert.deepEqual(['nothing', '/a b', '/c'].filter((each) => looks.isOwn(each)), []);
   atFragment('');
 });
 
-test('points are as large and as clear as told', () => {
+test('points are as large, as clear and as high as told', () => {
   const looks = fresh();
   const layer = new SensorLayer((info) => looks.of(info));
   drawn(layer, 1);
-  looks.set('/scan', { size: 9, opacity: 0.5 });
+  looks.set('/scan', { size: 9, opacity: 0.5, order: 3 });
   layer.restyle('/scan');
-  const { material } = layer.points.children[0] as DynamicPoints['object'];
+  const { material, renderOrder } = layer.points.children[0] as DynamicPoints['object'];
+  assert.equal(renderOrder, 3);
   assert.deepEqual([material.size, material.opacity, material.transparent], [9, 0.5, true]);
 });
 
@@ -89,4 +91,22 @@ test('points stay as long as told, and none of a time to come', () => {
   looks.set('/scan', null);
   layer.restyle('/scan');
   assert.equal(layer.points.children.length, 1);
+});
+
+test('a map lies over a costmap where that is told, and never over the marks of robots', () => {
+  const orders: Record<string, number> = { '/map': 0, '/global_costmap/costmap': 0 };
+  const grids = new Grids(() => {}, () => {}, (topic) => ({ opacity: 1, order: orders[topic] ?? 0 }));
+  const known = grids as unknown as { shown: Map<string, { mesh: Mesh }> };
+  for (const topic of Object.keys(orders)) {
+    known.shown.set(topic, { mesh: new Mesh(undefined, new MeshBasicMaterial()) });
+  }
+  const heights = (): number[] => Object.keys(orders).map((topic) => {
+    grids.restyle(topic);
+    return known.shown.get(topic)!.mesh.renderOrder;
+  });
+  assert.deepEqual(heights(), [2, 2.5]);
+  orders['/map'] = 8;
+  assert.ok(heights()[0]! > 2.5);
+  orders['/global_costmap/costmap'] = 10;
+  assert.ok(heights()[1]! < 3);
 });

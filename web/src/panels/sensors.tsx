@@ -109,7 +109,7 @@ function Words({ info, sensing, state }: SensorProps) {
 }
 
 const NAMES: Readonly<Record<keyof Look, string>> = {
-  size: 'Size, px', colouring: 'Colour', opacity: 'Opacity', decay: 'Stays, s',
+  size: 'Size, px', colouring: 'Colour', opacity: 'Opacity', decay: 'Stays, s', order: 'Order',
 };
 const COLOURING_NAMES: Readonly<Record<Colouring, string>> = {
   own: 'its own, or intensity', height: 'by height', plain: 'one colour',
@@ -125,7 +125,7 @@ function Display({ info, sensing: { looks } }: Pick<SensorProps, 'info' | 'sensi
       <summary aria-label={`Display of ${topic}`}>{looks.isOwn(topic) ? 'Display (changed)' : 'Display'}</summary>
       <div class="tools wrap">
         {settingsOf(kind).map((name) => (
-          <label key={name} class="fine">
+          <label key={name} class="fine" title={name === 'order' ? 'Those with more are drawn over those with less' : undefined}>
             {NAMES[name]}{' '}
             {name === 'colouring' ? (
               <select

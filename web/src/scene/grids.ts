@@ -8,6 +8,7 @@ import {
 import { coloured, inflate, schemeOf } from '../navigation/cells';
 import type { OccupancyGrid, SensorInfo } from '../protocol';
 import type { Sample } from '../samples';
+import type { Look } from '../sensors/looks';
 
 const LIFT = { map: 0.002, costmap: 0.003 }; // m
 const ANISOTROPY = 8; // sharp where one looks along the ground
@@ -31,7 +32,7 @@ export class Grids {
   constructor(
     private readonly changed: () => void,
     private readonly failed: (text: string) => void,
-    private readonly opacityOf: (topic: string) => number = () => 1,
+    private readonly lookOf: (topic: string) => Pick<Look, 'opacity' | 'order'> = () => ({ opacity: 1, order: 0 }),
   ) {}
 
   take({ topic, robot }: SensorInfo, { head, bytes }: Sample<OccupancyGrid>): void {
@@ -57,8 +58,16 @@ export class Grids {
   restyle(topic: string): void {
     const mesh = this.shown.get(topic)?.mesh;
     if (mesh) {
-      mesh.material.opacity = this.opacityOf(topic);
+      this.dress(mesh, topic);
     }
+  }
+
+  /** On the ground, below the marks of robots, costmaps over maps where nothing else was said. */
+  private dress(mesh: NonNullable<Shown['mesh']>, topic: string): void {
+    const { opacity, order } = this.lookOf(topic);
+    mesh.material.opacity = opacity;
+    const usual = schemeOf(topic) === 'map' ? 2 : 2.5;
+    mesh.renderOrder = Math.min(2.95, Math.max(1.05, usual + order / 10));
   }
 
   /** Draw no others than these. */
@@ -104,7 +113,7 @@ export class Grids {
     const geometry = new PlaneGeometry(width * resolution, height * resolution);
     geometry.translate((width * resolution) / 2, (height * resolution) / 2, LIFT[scheme]);
     const material = new MeshBasicMaterial({
-      map: texture, transparent: true, opacity: this.opacityOf(topic), depthWrite: false, toneMapped: false,
+      map: texture, transparent: true, depthWrite: false, toneMapped: false,
       polygonOffset: true, polygonOffsetUnits: scheme === 'map' ? -8 : -16, // before the ground
     });
     dispose(each.mesh);
@@ -112,7 +121,7 @@ export class Grids {
     mesh.matrixAutoUpdate = false;
     mesh.visible = false; // until it has its place
     mesh.raycast = () => {};
-    mesh.renderOrder = scheme === 'map' ? 2 : 2.5; // on the ground, below the marks of robots
+    this.dress(mesh, topic);
     each.mesh = mesh;
     this.object.add(mesh);
   }

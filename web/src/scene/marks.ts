@@ -95,7 +95,8 @@ export class MarkLayer {
     const settled = this.shown.get(info.topic)?.settled ?? new Map<string, Matrix4>();
     this.drop(info.topic);
     const group = new Group();
-    const share = this.lookOf(info).opacity;
+    const { opacity: share, order } = this.lookOf(info);
+    group.renderOrder = order;
     const parts = batchesOf(sample as Sample<Marks>).map(([batch, rows]) =>
       this.partOf({ ...batch, opacity: share * batch.opacity }, rows),
     );

@@ -43,9 +43,9 @@ export class NavigationLayer {
   private readonly goalArrows: Arrow[] = [];
   private readonly believed: Arrow[] = [];
 
-  /** `opacityOf`: of a map, by its topic. */
-  constructor(changed: () => void, failed: (text: string) => void, opacityOf?: (topic: string) => number) {
-    this.grids = new Grids(changed, failed, opacityOf);
+  /** `lookOf`: of a map, by its topic. */
+  constructor(changed: () => void, failed: (text: string) => void, lookOf?: ConstructorParameters<typeof Grids>[2]) {
+    this.grids = new Grids(changed, failed, lookOf);
     this.object.add(this.grids.object, this.routes.object);
   }
 

@@ -87,7 +87,7 @@ export class Picture {
     lookOf: LookOf = ({ kind }) => firstLook(kind),
   ) {
     this.sensors = new SensorLayer(lookOf);
-    this.navigation = new NavigationLayer(changed, failed, (topic) => lookOf({ topic, kind: 'map' }).opacity);
+    this.navigation = new NavigationLayer(changed, failed, (topic) => lookOf({ topic, kind: 'map' }));
     this.marks = new MarkLayer(changed, failed, lookOf);
     this.world = new WorldView(!isSoftware);
     this.surroundings = new Surroundings(this.scene, isSoftware);

@@ -2,23 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Points that change all the time, of some pixels' size, in one draw call. */
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Points, PointsMaterial, Sphere } from 'three';
+import type { Look } from '../sensors/looks';
 
 const NEARER = 0.985; // of the way to the camera: points on a surface are seen whole
+const NEARER_YET = 0.001; // for each step of the order
 
 export class DynamicPoints {
   readonly object: Points<BufferGeometry, PointsMaterial>;
   positions = new Float32Array(0);
   colours = new Uint8Array(0);
+  private readonly nearer = { value: NEARER };
 
   /** `size` in CSS pixels. */
   constructor(size: number) {
     const material = new PointsMaterial({ size, sizeAttenuation: false, vertexColors: true });
     // Towards the camera along the line of sight: on the screen they stay where they are.
     material.onBeforeCompile = (shader) => {
-      shader.vertexShader = shader.vertexShader.replace(
+      shader.uniforms.nearer = this.nearer;
+      shader.vertexShader = `uniform float nearer;\n${shader.vertexShader}`.replace(
         '#include <project_vertex>',
         `#include <project_vertex>
-         gl_Position = projectionMatrix * vec4(mvPosition.xyz * ${NEARER}, 1.0);`,
+         gl_Position = projectionMatrix * vec4(mvPosition.xyz * nearer, 1.0);`,
       );
     };
     this.object = new Points(new BufferGeometry(), material);
@@ -28,9 +32,11 @@ export class DynamicPoints {
     this.object.raycast = () => {};
   }
 
-  /** `size` in CSS pixels; opacity 0..1. */
-  setLook(size: number, opacity: number): void {
+  /** `size` in CSS pixels; opacity 0..1; those of a greater order lie over the others. */
+  setLook({ size, opacity, order }: Pick<Look, 'size' | 'opacity' | 'order'>): void {
     const { material } = this.object;
+    this.object.renderOrder = order;
+    this.nearer.value = NEARER - NEARER_YET * order;
     material.size = size;
     material.opacity = opacity;
     material.transparent = opacity < 1;

@@ -99,8 +99,8 @@ export class SensorLayer {
     const each = this.shown.get(topic);
     if (each !== undefined) {
       each.isSettled = false;
-      const { size, opacity } = this.lookOf(each.info);
-      [each, ...each.older].forEach(({ points }) => points?.setLook(size, opacity));
+      const look = this.lookOf(each.info);
+      [each, ...each.older].forEach(({ points }) => points?.setLook(look));
       this.forgetOlder(each, each.sample.head.origin.stamp);
     }
   }
@@ -175,9 +175,9 @@ export class SensorLayer {
     if (info.kind !== 'scan' && info.kind !== 'cloud') {
       return null;
     }
-    const { size, opacity } = this.lookOf(info);
-    const points = new DynamicPoints(size);
-    points.setLook(size, opacity);
+    const look = this.lookOf(info);
+    const points = new DynamicPoints(look.size);
+    points.setLook(look);
     this.points.add(points.object);
     return points;
   }

@@ -1,6 +1,6 @@
 // Copyright 2026 The amr_description authors
 // SPDX-License-Identifier: Apache-2.0
-/** How topics are drawn: size, colour, opacity, how long, where it is not as at first. Kept, and in the link. */
+/** How topics are drawn: size, colour, opacity, how long, over which, where it is not as at first. Kept, and in the link. */
 import { signal } from '@preact/signals';
 import { forgetLink, linkPart } from '../address';
 import type { SensorInfo } from '../protocol';
@@ -15,20 +15,22 @@ export interface Look {
   colouring: Colouring;
   opacity: number; // 0.1..1
   decay: number; // s that points stay; 0: until the next ones come
+  order: number; // those with more are drawn over those with less
 }
 
 /** How a topic is drawn. */
 export type LookOf = (info: Pick<SensorInfo, 'topic' | 'kind'>) => Look;
 
-export const BOUNDS = { size: [1, 20], opacity: [0.1, 1], decay: [0, 30] } as const;
+export const BOUNDS = { size: [1, 20], opacity: [0.1, 1], decay: [0, 30], order: [-10, 10] } as const;
 type Kind = SensorInfo['kind'];
 
 const NAME = 'looks';
 const SIZES: Partial<Record<Kind, number>> = { scan: 4, cloud: 2 };
-const OF_POINTS = ['size', 'colouring', 'opacity', 'decay'] as const;
+const OF_POINTS = ['size', 'colouring', 'opacity', 'decay', 'order'] as const;
+const OF_SHAPES = ['opacity', 'order'] as const;
 const SETTINGS: Partial<Record<Kind, readonly (keyof Look)[]>> = {
-  scan: OF_POINTS, cloud: OF_POINTS, map: ['opacity'], markers: ['opacity'], poses: ['opacity'], polygon: ['opacity'],
-  point: ['opacity'],
+  scan: OF_POINTS, cloud: OF_POINTS, map: OF_SHAPES, markers: OF_SHAPES, poses: OF_SHAPES, polygon: OF_SHAPES,
+  point: OF_SHAPES,
 };
 
 /** What can be set of a kind. */
@@ -38,7 +40,7 @@ export function settingsOf(kind: Kind): readonly (keyof Look)[] {
 
 /** As a kind is drawn at first: scans in one colour. */
 export function firstLook(kind: Kind): Look {
-  return { size: SIZES[kind] ?? 2, colouring: kind === 'scan' ? 'plain' : 'own', opacity: 1, decay: 0 };
+  return { size: SIZES[kind] ?? 2, colouring: kind === 'scan' ? 'plain' : 'own', opacity: 1, decay: 0, order: 0 };
 }
 
 export class Looks {
