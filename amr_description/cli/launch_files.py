@@ -7,7 +7,13 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from amr_description.ament_index import is_installed, not_installed, package_prefix, sources_of
+from amr_description.ament_index import (
+    hint_at,
+    is_installed,
+    not_installed,
+    package_prefix,
+    sources_of,
+)
 from amr_description.bringup.stacks import STACKS
 from amr_description.errors import AmrError, UsageError
 from amr_description.stand_ins import INSTEAD_OF_PACKAGES
@@ -113,7 +119,8 @@ def _known_stacks() -> str:
 def _stack_file(path: Path) -> str:
     """Return the path if there is a file with a stack in it, or a launch file. Raises AmrError."""
     if not path.is_file():
-        raise AmrError(f"there is no launch file '{path}'; {_known_stacks()}")
+        hint = hint_at(path.absolute()) or f'; {_known_stacks()}'
+        raise AmrError(f"there is no launch file '{path}'{hint}")
     if path.suffix not in ('.py', *MARKUP):
         endings = ', '.join(_SUFFIXES)
         raise AmrError(f"'{path}': the name of a launch file ends with one of {endings}")

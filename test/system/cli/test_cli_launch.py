@@ -156,6 +156,13 @@ def test_a_launch_file_that_is_in_the_source_alone_is_named_there(share, tmp_pat
         find_launch_file('toys', 'mime.launch.py', [])
 
 
+def test_a_file_of_nearly_that_name_is_named(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / 'robot.launch.py').write_text(FOREIGN)
+    with pytest.raises(AmrError, match=r"file 'robt.launch.py'; did you mean robot.launch.py\?$"):
+        find_launch_file('robt.launch.py', None, [])
+
+
 def test_two_of_one_name_are_told(share):
     for folder in (share, share / 'more'):
         folder.mkdir(exist_ok=True)
