@@ -47,6 +47,7 @@ def parse(text: str | bytes, source: str = '<string>') -> Robot:
     report = raise_error_of(text, strict=False)
     xml = parse_xml(text, source, report)
     assert xml is not None, 'raise_error does not return from an error'
+    is_urdf(xml, source, report)
     return read_robot(xml, text, source, report)
 
 
@@ -74,19 +75,25 @@ def read_robot(xml: etree._Element, text: str, source: str, report: Report) -> R
     return robot
 
 
+def is_urdf(xml: etree._Element, source: str, report: Report) -> bool:
+    """Return whether a text is of a robot; report if it is not: nothing in it is to be checked."""
+    if xml.tag == 'robot':
+        return True
+    ElementReader(source, report).error(
+        xml,
+        'this is no URDF',
+        found=f'the root element <{xml.tag}>',
+        expected='<robot>',
+        fix='give the URDF of the robot, with the plugins and sensors in <gazebo> tags'
+        if xml.tag == 'sdf'
+        else '',
+        urdfdom="Could not find the 'robot' element in the xml file",
+    )
+    return False
+
+
 def _read_head(xml: etree._Element, reader: ElementReader) -> str:
-    """Return the name of the ``<robot>`` element; check tag, name and version."""
-    if xml.tag != 'robot':
-        reader.error(
-            xml,
-            'this is no URDF',
-            found=f'the root element <{xml.tag}>',
-            expected='<robot>',
-            fix='give the URDF of the robot, with the plugins and sensors in <gazebo> tags'
-            if xml.tag == 'sdf'
-            else '',
-            urdfdom="Could not find the 'robot' element in the xml file",
-        )
+    """Return the name of the ``<robot>`` element; check name and version."""
     name = xml.get('name', '')
     if not name:
         reader.error(

@@ -44,6 +44,7 @@ from amr_description.parameter_files import file_names, given_files
 from amr_description.simulation.given import GivenDescription
 from amr_description.simulation.readings import Contact, Image, Joint, Motion, Points, Scan
 from amr_description.simulation.tracebacks import is_for_the_test, without_frames
+from amr_description.text import did_you_mean
 
 if TYPE_CHECKING:  # with what reads bags
     from amr_description.simulation.recorded_run import RecordedRun
@@ -140,6 +141,17 @@ class RobotApi(ABC):
 RobotType = TypeVar('RobotType', bound=RobotApi)
 
 
+class _Robots(dict[str, RobotType]):
+    """Name → robot; a name that is not there is told those that are."""
+
+    def __missing__(self, name: str) -> RobotType:
+        """Raise SimulationError."""
+        raise SimulationError(
+            f"there is no robot '{name}'{did_you_mean(name, self)}; there are: "
+            + (', '.join(self) or 'none')
+        )
+
+
 class SimulationApi(ABC, Generic[RobotType]):
     """
     One robot or several in a world, ready to drive inside the ``with`` block, at time 0.
@@ -206,7 +218,7 @@ class SimulationApi(ABC, Generic[RobotType]):
         }
         self._stack = ExitStack()
         self._is_running = False
-        self._robots: dict[str, RobotType] = {}
+        self._robots = _Robots[RobotType]()
 
     # --- beginning and end --------------------------------------------------------------------
 
@@ -313,21 +325,13 @@ class SimulationApi(ABC, Generic[RobotType]):
 
     def remove(self, name: str) -> None:
         """Remove a robot, with its controller manager and its topics."""
-        self._delete(self._find(name))
+        self._delete(self.robots[name])
         del self._robots[name]
 
     def _add(self, name: str, pose: Transform) -> RobotType:
         robot = self._insert(name, pose)
         self._robots[robot.name] = robot
         return robot
-
-    def _find(self, name: str) -> RobotType:
-        try:
-            return self.robots[name]
-        except KeyError:
-            raise SimulationError(
-                f"there is no robot '{name}'; there are: {', '.join(self._robots) or 'none'}"
-            ) from None
 
     @abstractmethod
     def _insert(self, name: str, pose: Transform) -> RobotType:
@@ -409,7 +413,7 @@ class SimulationApi(ABC, Generic[RobotType]):
         self, commands: Mapping[str, tuple[float, float]], *, seconds: float, stop: bool = True
     ) -> None:
         """Drive several robots at once, as by :meth:`drive`: name → ``linear``, ``angular``."""
-        robots = {self._find(name): twist for name, twist in commands.items()}
+        robots = {self.robots[name]: twist for name, twist in commands.items()}
         self._command(robots, self._steps_in(seconds))
         end = self.time + BRAKING_TIMEOUT
         while stop and self.time < end and any(robot.is_moving for robot in robots):

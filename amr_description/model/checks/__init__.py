@@ -46,7 +46,7 @@ from amr_description.model.gazebo.tags import read_gazebo_plugins
 from amr_description.model.origins import raise_error_of, relocated
 from amr_description.model.robot import Robot
 from amr_description.model.ros2_control_tag import read_hardware
-from amr_description.model.urdf import read_robot
+from amr_description.model.urdf import is_urdf, read_robot
 from amr_description.model.xml_reader import parse_xml
 
 # Limits the time and the output for files with absurdly many faults.
@@ -210,9 +210,9 @@ def _apply(context: CheckContext, rules: tuple[Rule, ...]) -> list[Finding]:
 
 
 def _read(text: str, source: str, inputs: CheckInputs, report: Report) -> CheckContext | None:
-    """Return the context of the rules; None if the text is not XML."""
+    """Return the context of the rules; None if the text is not that of a robot in XML."""
     xml = parse_xml(text, source, report)
-    if xml is None:
+    if xml is None or not is_urdf(xml, source, report):
         return None
     robot = read_robot(xml, text, source, report)
     hardware = read_hardware(xml, robot, report)

@@ -280,6 +280,12 @@ def test_a_file_is_named_by_its_package_too(run):
     assert err.endswith('; did you mean amr.urdf?\n')
 
 
+def test_of_another_language_nothing_else_is_said(run):
+    code, _, err = run(stdin='<sdf version="1.6"><model name="m"><link name="l"/></model></sdf>')
+    (line,) = [each for each in err.splitlines() if each.startswith(('error: ', 'warning: '))]
+    assert (code, line.partition('; ')[2][:25]) == (255, 'give the URDF of the robo')
+
+
 def test_a_file_that_is_wrong_all_over_is_not_read_to_the_end(run):
     links = '\n'.join('<link/>' for _ in range(10_000))
     code, _, err = run(stdin=f'<robot name="r">{links}</robot>')
