@@ -18,7 +18,7 @@ from support.paths import ROOT
 from amr_description.errors import ViewerError
 from amr_description.viewer.backend import Answer
 from amr_description.viewer.description import describe_robot
-from amr_description.viewer.forms import CallInfo, FieldInfo, Services
+from amr_description.viewer.forms import CallInfo, CallService, FieldInfo, Services
 from amr_description.viewer.introspection import (
     Endpoint,
     FindingInfo,
@@ -219,7 +219,7 @@ def simulation(*, wheels=True):
             'log': LOG,
             'findings': DOCTOR,
         },
-        answers={ListParameters: PARAMETERS, Definition: FORM},
+        answers={ListParameters: PARAMETERS, Definition: FORM, CallService: RESPONSE},
     )
 
 
@@ -283,6 +283,7 @@ SERVICES = Services(
         )
     )
 )
+RESPONSE = "result:\n  result: 2\n  error_message: 'there is no entity; there are: amr'\n"
 FORM = (
     FieldInfo(
         'state',

@@ -135,6 +135,8 @@ def show(page, tab):
             })()"""
         )
         page.wait_until("document.getElementById('field-state.state')")
+        page.evaluate("document.querySelector('#panel-services .button.primary').click()")
+        page.wait_until("document.querySelector('#panel-services .answer')")
     page.evaluate(DRAWN)
 
 

@@ -133,7 +133,7 @@ function Call({ app, service: { name, kind, is_action: isAction }, goals }: Call
       </div>
       <Said said={said.value} />
       {text !== '' && (
-        <pre class="answer" tabIndex={0} aria-label={isActive ? 'Feedback' : 'Answer'}>
+        <pre class="answer" role="group" tabIndex={0} aria-label={isActive ? 'Feedback' : 'Answer'}>
           {text}
         </pre>
       )}

@@ -46,7 +46,8 @@ function TopicList({ app, rates, plots }: ListProps) {
         <input
           type="text"
           class="grow"
-          placeholder="Filter: name, type, node"
+          placeholder="Filter"
+          title="By name, type or node"
           aria-label="Filter topics"
           value={text.value}
           onInput={({ currentTarget }) => (text.value = currentTarget.value)}
