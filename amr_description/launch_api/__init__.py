@@ -26,6 +26,7 @@ read, its actions are visited in order, and each is translated into what a stack
 ``including.py``          IncludeLaunchDescription and its sources
 ``opened_files.py``       which files of packages a launch file reads
 ``files_in_place.py``     a file of the package in place of a placeholder in its description
+``driving.py``            what drives the robot of a launch file, to be typed next
 ``translation.py``        actions -> nodes, conditions and handlers of a stack
 ``handling.py``           … and what happens at events
 ``controller_spawners.py`` ``controller_manager.launch_utils``: descriptions that spawn controllers

@@ -33,7 +33,7 @@ def use_files_of_package(nodes: Sequence[Node], launch_file: Path) -> str:
     simulators = [
         node for node in nodes if (node.package, node.executable) == (OWN_PACKAGE, _SIMULATOR)
     ]
-    texts = {text for node in nodes if (text := _value(node, _DESCRIPTION))}
+    texts = {text for node in nodes if (text := value_of(node, _DESCRIPTION))}
     if len(simulators) != 1 or len(texts) != 1 or not _has_tables_alone(simulators[0]):
         return ''
     if not (named := absent_file(texts.pop())):
@@ -53,10 +53,10 @@ def use_files_of_package(nodes: Sequence[Node], launch_file: Path) -> str:
 def _has_tables_alone(simulator: Node) -> bool:
     """Return whether its parameters are known here, and no file for controllers is among them."""
     known = all(isinstance(each, dict) for each in simulator.parameters)
-    return known and not simulator.command and not _value(simulator, _PARAMETER)
+    return known and not simulator.command and not value_of(simulator, _PARAMETER)
 
 
-def _value(node: Node, name: str) -> str:
+def value_of(node: Node, name: str) -> str:
     """Return a parameter that a table gives as a text; '': none does."""
     tables = [each for each in node.parameters if isinstance(each, dict)]
     values = [table[name] for table in tables if isinstance(table.get(name), str)]

@@ -59,6 +59,7 @@ from amr_description.launch_api.counterparts import (
     require_package,
 )
 from amr_description.launch_api.descriptions import Action, LaunchDescription, Occurrence
+from amr_description.launch_api.driving import next_steps
 from amr_description.launch_api.events import OnProcessExit, Shutdown as ShutdownEvent
 from amr_description.launch_api.files_in_place import use_files_of_package
 from amr_description.launch_api.gazebo_files import (
@@ -202,6 +203,7 @@ class Translation:
             event_handlers=self.event_handlers,
             on_shutdown=self.handling.on_shutdown(),
             notes=notes,
+            next_steps=next_steps(self.nodes, has_page=bool(self._replaced.pages)),
         )
 
     def _add_page(self, name: str) -> None:

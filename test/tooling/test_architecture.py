@@ -47,12 +47,12 @@ FEW_LINES = 80
 # that mutants went through.
 BUDGETS = {
     'modules': 883,
-    'code lines': 103_267,
+    'code lines': 103_306,
     'small modules of one importer beside them': 38,
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 28_258,
+    'code lines of helpers in test files': 28_281,
 }
 
 BASE = {

@@ -4,6 +4,7 @@
 
 from fixtures.launch_files.packages import commands, first_in_the_index, install_package, stack_of
 import pytest
+from support.paths import ROOT
 
 from amr_description.errors import BringupError
 from amr_description.launch_api.counterparts import arguments_as_ours
@@ -348,3 +349,48 @@ def test_what_is_no_table_of_controllers_is_said(launch, given, said):
 def test_a_spawner_that_stays_to_unload_is_not_waited_for(launch):
     stack = launch("SetLaunchConfiguration('unload_on_kill', 'true'), spawner_of(['a']),")
     assert 'exited' not in str(stack.ready_when)
+
+
+DESCRIBED = (
+    "Node(package='robot_state_publisher', executable='robot_state_publisher', "
+    f"parameters=[{{'robot_description': open({str(ROOT / 'urdf/amr.urdf')!r}).read()}}]),"
+)
+OURS = str(ROOT / 'config/controllers.yaml')
+SIMULATOR = (
+    "Node(package='amr_description', executable='mujoco_sim', "
+    f"parameters=[{{'controllers': {OURS!r}}}]),"
+)
+REAL = f"""Node(package='controller_manager', executable='ros2_control_node',
+    parameters=[{OURS!r}], remappings=[('/diff_drive_controller/cmd_vel', '/cmd_vel')]),"""
+BOTH = "spawner_of(['joint_state_broadcaster', 'diff_drive_controller']),"
+
+
+@pytest.mark.parametrize(
+    ('entities', 'topic'),
+    [
+        (SIMULATOR + DESCRIBED + BOTH, '/diff_drive_controller/cmd_vel'),
+        (REAL + DESCRIBED + BOTH, '/cmd_vel'),
+        (SIMULATOR + DESCRIBED + "spawner_of(['joint_state_broadcaster']),", ''),
+        (SIMULATOR + DESCRIBED + BOTH.replace('])', "], [], ['--controller-ros-args', 'x'])"), ''),
+        (SIMULATOR + BOTH, ''),
+        (SIMULATOR + REAL + DESCRIBED + BOTH, ''),
+    ],
+)
+def test_how_the_robot_is_driven_is_said_where_it_is_known(launch, entities, topic):
+    said = launch(entities).next_steps
+    assert (f'ros2 topic pub --once {topic} geometry_msgs/msg/TwistStamped' in said) == bool(topic)
+    assert bool(said) == bool(topic)
+
+
+def test_a_drive_of_another_name_has_its_own_topic(launch, tmp_path):
+    (tmp_path / 'c.yaml').write_text("""\
+controller_manager:
+  ros__parameters: {wheels: {type: diff_drive_controller/DiffDriveController}}
+wheels:
+  ros__parameters: {left_wheel_names: [joint_wheel_front_left]}
+""")
+    simulator = SIMULATOR.replace(OURS, str(tmp_path / 'c.yaml'))
+    assert (
+        '/wheels/cmd_vel ' in launch(simulator + DESCRIBED + "spawner_of(['wheels']),").next_steps
+    )
+    assert launch(simulator + DESCRIBED + "spawner_of(['others']),").next_steps == ''
