@@ -358,6 +358,12 @@ def package_in(manifest: Path) -> str | None:
 
 def hint_at(missing: Path) -> str:
     """Return what would do about a file that is not there: cd, build, or another name; or ''."""
+    with suppress(OSError):  # as of a folder that is gone, or of a mount that does not answer
+        return _hint_at(missing.absolute())
+    return ''
+
+
+def _hint_at(missing: Path) -> str:
     if (source := source_of(missing)) is not None:
         return not_installed(source)
     if folders := _folders_with(missing):

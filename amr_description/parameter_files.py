@@ -297,7 +297,7 @@ def read_parameter_file(path: Path) -> dict[str, Any]:
     try:
         text = path.read_text(encoding='utf-8')
     except OSError as error:
-        hint = hint_at(path.absolute()) if isinstance(error, FileNotFoundError) else ''
+        hint = hint_at(path) if isinstance(error, FileNotFoundError) else ''
         raise ParameterError(f"parameter file '{path}': {error.strerror}{hint}") from error
     except UnicodeDecodeError as error:
         raise ParameterError(f"parameter file '{path}': not UTF-8 text ({error})") from error

@@ -119,7 +119,7 @@ def _known_stacks() -> str:
 def _stack_file(path: Path) -> str:
     """Return the path if there is a file with a stack in it, or a launch file. Raises AmrError."""
     if not path.is_file():
-        hint = hint_at(path.absolute()) or f'; {_known_stacks()}'
+        hint = hint_at(path) or f'; {_known_stacks()}'
         raise AmrError(f"there is no launch file '{path}'{hint}")
     if path.suffix not in ('.py', *MARKUP):
         endings = ', '.join(_SUFFIXES)

@@ -65,7 +65,7 @@ def read_file(path: str | Path) -> str:
     except (OSError, ValueError) as error:
         reason = getattr(error, 'strerror', None) or str(error)
         if isinstance(error, FileNotFoundError):
-            reason += hint_at(Path(path).absolute())
+            reason += hint_at(Path(path))
         raise DescriptionError(
             f'cannot read the description {quote(str(path))}: {reason}'
         ) from None

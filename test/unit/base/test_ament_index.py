@@ -89,3 +89,11 @@ def test_a_file_that_would_be_found_from_a_folder_below_is_said(tmp_path, monkey
     assert hint_at(asked) == '; it is in mine and in examples/rover: cd mine'
     with pytest.raises(DescriptionError, match=r'No such file or directory; it is in mine and'):
         description_text(f'urdf/{asked.name}')
+
+
+def test_in_a_folder_that_is_gone_nothing_is_known(tmp_path, monkeypatch):
+    (tmp_path / 'gone').mkdir()
+    monkeypatch.chdir(tmp_path / 'gone')
+    (tmp_path / 'gone').rmdir()
+    with pytest.raises(DescriptionError, match='No such file or directory$'):
+        description_text('robot.urdf')
