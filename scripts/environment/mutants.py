@@ -39,6 +39,10 @@ FOLDERS = ('control', 'controllers', 'model', 'simulation')
 JUDGED = ROOT / 'test/judged_mutants.txt'
 """Mutants that no test can tell apart: what they change makes no difference that counts."""
 _NOT_ASKED = {'VariableReplacer', 'VariableInserter', 'RemoveDecorator'}
+_GUARDS = {'frozen', 'slots', 'strict'}
+"""Arguments that guard against faults of later changes: without them all is as before."""
+_MORE_TESTS = {'controllers': ['test/unit/base/test_parameters.py']}
+"""Where tests of a folder stand elsewhere, too."""
 _TIMEOUT = 200.0  # s
 Place = tuple[int, int]
 
@@ -84,29 +88,31 @@ def _parsed(path: Path) -> NodeOrLeaf:
 
 
 def mutants_by_place(path: Path) -> dict[Place, list[Mutant]]:
-    """Return all mutants of a module by line and column, those of type hints left out."""
+    """Return all mutants of a module by line and column, without those of hints and guards."""
     nodes = list(cosmic_ray.ast.ast_nodes(_parsed(path)))
-    hints = _hints(path.read_text())
+    left_out = _left_out(path.read_text())
     found: dict[Place, list[Mutant]] = {}
     provider = OperatorProvider()
     for name in sorted(set(provider) - _NOT_ASKED):
         operator = provider[name]()
         places = (place for node in nodes for place, _ in operator.mutation_positions(node))
         for occurrence, place in enumerate(places):
-            if not any(begin <= place < end for begin, end in hints):
+            if not any(begin <= place < end for begin, end in left_out):
                 mutant = Mutant(str(path.relative_to(ROOT)), name, occurrence, place[0])
                 found.setdefault(place, []).append(mutant)
     return found
 
 
-def _hints(text: str) -> list[tuple[Place, Place]]:
-    """Return from where to where type hints stand, and statements that do nothing when run."""
+def _left_out(text: str) -> list[tuple[Place, Place]]:
+    """Return from where to where type hints and guards stand."""
     found: list[ast.AST | None] = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.arg | ast.AnnAssign):
             found.append(node.annotation)
         elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             found.append(node.returns)
+        elif isinstance(node, ast.keyword) and node.arg in _GUARDS:
+            found.append(node.value)
     spans = [each for each in found if isinstance(each, ast.expr)]
     return [
         ((each.lineno, each.col_offset), (each.end_lineno or 0, each.end_col_offset or 0))
@@ -126,9 +132,9 @@ def drawn(folder: str, sample: int, seed: int) -> list[Mutant]:
 def is_noticed(mutant: Mutant) -> bool:
     """Return whether a test fails; one that never ends has noticed it too."""
     _, folder, *inner = Path(mutant.file).parts
-    tests = f'test/{"ros" if "ros" in inner else "unit"}/{folder}'
+    tests = [f'test/{"ros" if "ros" in inner else "unit"}/{folder}', *_MORE_TESTS.get(folder, ())]
     here = [sys.executable, __file__, '--run', mutant.file, mutant.operator]
-    command = [*here, str(mutant.occurrence), '-x', '-q', '-p', 'no:cacheprovider', tests]
+    command = [*here, str(mutant.occurrence), '-x', '-q', '-p', 'no:cacheprovider', *tests]
     with subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, process_group=0
     ) as process:
