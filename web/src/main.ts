@@ -80,7 +80,7 @@ const past = new Past({
   over: () => view.setPast(null),
 });
 plots.onTime = (time) => {
-  view.setPast(past.lookAt(time));
+  view.setPast(past.lookAt(pilot.driving ? null : time)); // nobody drives by what was
   stream.touch(); // pictures are drawn with states
 };
 view.onNow = () => plots.follow();
@@ -190,7 +190,7 @@ connection.onBinary = (buffer) => {
     view.apply(state); // all of it is kept already
   } else if (state !== null) {
     if (pilot.driving) {
-      plots.follow(); // nobody drives by what was
+      past.lookAt(null);
     }
     if (past.takeState(state)) {
       view.apply(state);

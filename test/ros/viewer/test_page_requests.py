@@ -43,3 +43,17 @@ def test_each_request_has_its_handler_but_those_of_a_bag_that_is_shown(backend):
 def test_what_cannot_be_carried_out_is_refused(backend, request_, reason):
     with pytest.raises(ViewerError, match=reason):
         asyncio.run(backend.handlers.carry_out(request_, 'page 1'))
+
+
+@pytest.mark.parametrize(
+    ('action', 'is_refused'),
+    [('/robot1/dock', True), ('/dock', False), ('/robot10/dock', False)],
+)
+def test_no_goal_is_sent_by_a_form_into_the_namespace_of_a_robot_that_is_stopped(
+    backend, monkeypatch, action, is_refused
+):
+    monkeypatch.setattr(GraphBackend, '_robots', dict.fromkeys(['/', '/robot1', '/robot10']))
+    backend._ros.held = frozenset({'/robot1'})
+    refusal = backend._goal_refusal(action)
+    wanted = f'/robot1 is stopped: no goal is sent to {action} until it is released'
+    assert refusal == (wanted if is_refused else None)

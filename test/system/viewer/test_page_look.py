@@ -269,6 +269,23 @@ def test_a_graph_without_a_robot_says_the_command_that_starts_one(page, robots):
     page.wait_until("document.querySelector('#panel-model .findings')")
 
 
+def test_the_scene_goes_back_with_the_plots_and_comes_again(page):
+    be(page, FORMS['desk'], 'desk')
+    pose, past = 'JSON.stringify(amr.now.scene.pose)', "document.querySelector('.view-past')"
+    now = page.evaluate(pose)
+    page.click('.plot-tools .toggle')
+    page.evaluate(
+        """(() => {
+          const chart = document.querySelector('.chart-plot');
+          const event = () => new KeyboardEvent('keydown', { key: 'ArrowLeft', bubbles: true });
+          for (let step = 0; step < 400; step++) chart.dispatchEvent(event());
+        })()"""
+    )
+    page.wait_until(f"{pose} !== '{now}' && !{past}.hidden")
+    page.click('.view-past .button')
+    page.wait_until(f"{pose} === '{now}' && {past}.hidden")
+
+
 def violations(page):
     options = json.dumps({'resultTypes': ['violations'], 'runOnly': RULES, 'preload': False})
     return page.evaluate(
