@@ -172,7 +172,7 @@ def _read_rate(element: etree._Element, reader: ElementReader) -> int:
     text = element.get('rw_rate')
     if text is None:
         return 0
-    if not (text.isascii() and text.isdigit() and 0 < len(text) <= 6 and int(text) > 0):
+    if not (text.isascii() and text.isdigit() and len(text) <= 6 and int(text) > 0):
         reader.error(
             element, 'rw_rate', found=quote(text), expected='a non-zero positive integer, in Hz'
         )

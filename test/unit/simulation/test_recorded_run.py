@@ -108,20 +108,22 @@ def test_the_first_difference_of_each_topic_is_found(tmp_path):
 
 
 def test_pictures_that_were_only_late_or_left_out_in_real_time_are_no_difference(tmp_path):
-    run = read_run(bag(tmp_path / 'bag', [*BEGIN, (12, '/heard', 'a'), (30, '/heard', 'c')]))
+    heard = [(12, '/heard', 'a'), (30, '/heard', 'c'), (40, '/heard', 'd')]
+    run = read_run(bag(tmp_path / 'bag', [*BEGIN, *heard]))
     waited = [
-        (time * MS, digest(string(text))) for time, text in ((10, 'a'), (20, 'b'), (30, 'c'))
+        (time * MS, digest(string(text)))
+        for time, text in ((10, 'a'), (20, 'b'), (30, 'c'), (40, 'd'))
     ]
     again = replace(run, messages={**run.messages, '/heard': waited})
     # What no thread measures has no reason to be late.
     assert run.delayed == frozenset()
-    assert differences(run, again) == [Difference('/heard', 10 * MS, 3, 3)]
+    assert differences(run, again) == [Difference('/heard', 10 * MS, 4, 4)]
     assert delays(run, again) == []
     run, again = (replace(each, delayed=frozenset({'/heard', '/none'})) for each in (run, again))
     assert differences(run, again) == []
     assert delays(run, again) == [Delay('/heard', late=1, left_out=1)]
     # The other way round it is one: time has waited, and there is less.
-    assert differences(again, run) == [Difference('/heard', 10 * MS, 3, 3)]
+    assert differences(again, run) == [Difference('/heard', 10 * MS, 4, 4)]
     assert delays(again, run) == []
 
 
