@@ -237,6 +237,8 @@ def _stubs() -> Path:
 
 def _build(command: list[str], folder: str) -> int:
     """Build in ``folder``; what it prints is shown as it comes."""
+    for file in Path(folder).glob(_FAULTS):
+        file.unlink()  # CMake may fail before they are looked for anew
     printed: list[str] = []
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors='replace'

@@ -47,7 +47,7 @@ FEW_LINES = 80
 # that mutants went through.
 BUDGETS = {
     'modules': 883,
-    'code lines': 103_310,
+    'code lines': 103_312,
     'small modules of one importer beside them': 38,
     'class names used twice': 53,
     'modules excused from a check of types': 12,

@@ -125,6 +125,13 @@ def test_what_ninja_says_of_a_failure_is_seen(cmake):
     assert log == f'started: --build .\n{NINJA}'
 
 
+def test_faults_of_a_former_build_hide_none_of_this_one(cmake, tmp_path):
+    faults = tmp_path / 'build/rosidl_generate_interfaces/bot/faults'
+    faults.parent.mkdir(parents=True)
+    faults.write_text("A.msg:1:1: unknown type 'flaot64'")
+    assert cmake('--build', '.')[2] == NINJA.partition('\n')[2]
+
+
 def test_colcon_may_ask_what_there_is_to_install_in_vain(cmake):
     assert cmake('--build', '.', '--target', 'help') == (1, '', '')
 
