@@ -271,6 +271,8 @@ def test_a_graph_without_a_robot_says_the_command_that_starts_one(page, robots):
 
 def test_the_scene_goes_back_with_the_plots_and_comes_again(page):
     be(page, FORMS['desk'], 'desk')
+    page.wait_until(f'amr.now.time > {scripted_robots.SECONDS - 0.2}')  # it rests from 4 s on
+    page.evaluate(DRAWN)
     pose, past = 'JSON.stringify(amr.now.scene.pose)', "document.querySelector('.view-past')"
     now = page.evaluate(pose)
     page.click('.plot-tools .toggle')
