@@ -380,8 +380,8 @@ def _folders_with(missing: Path) -> list[str]:
         return []
     name = missing.relative_to(here)
     depths = (f'*/{glob.escape(str(name))}', f'*/*/{glob.escape(str(name))}')
-    found = (each.relative_to(here) for depth in depths for each in sorted(here.glob(depth)))
-    return [str(each).removesuffix(f'/{name}') for each in found]
+    found = (each for depth in depths for each in sorted(here.glob(depth)) if each.is_file())
+    return [str(each.relative_to(here)).removesuffix(f'/{name}') for each in found]
 
 
 def not_installed(source: Path) -> str:

@@ -87,6 +87,7 @@ def test_a_file_that_would_be_found_from_a_folder_below_is_said(tmp_path, monkey
         (tmp_path / folder / 'urdf').mkdir(parents=True)
         (tmp_path / folder / 'urdf' / asked.name).touch()
     assert hint_at(asked) == '; it is in mine and in examples/rover: cd mine'
+    assert hint_at(asked.parent) == hint_at(tmp_path) == '', 'folders are no files'
     with pytest.raises(DescriptionError, match=r'No such file or directory; it is in mine and'):
         description_text(f'urdf/{asked.name}')
 
