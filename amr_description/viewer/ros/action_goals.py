@@ -132,20 +132,16 @@ class ActionGoals(Generic[G]):
         another thread, the answer can come first, and is then unexpected.
         """
         loop = asyncio.get_running_loop()
-        done = loop.create_future()
-
-        def settle() -> None:
-            if not done.done():  # else nobody waits any more
-                done.set_result(None)
+        done = asyncio.Event()
 
         def run() -> Future:
             future = ask()
-            future.add_done_callback(lambda _: loop.call_soon_threadsafe(settle))
+            future.add_done_callback(lambda _: loop.call_soon_threadsafe(done.set))
             return future
 
         future = await on_ros_thread(self._executor, run)
         try:
-            await asyncio.wait_for(done, _ANSWER_TIMEOUT)
+            await asyncio.wait_for(done.wait(), _ANSWER_TIMEOUT)
         except TimeoutError:
             raise ViewerError(f'{action} has not answered within {_ANSWER_TIMEOUT:g} s') from None
         return future.result()

@@ -25,7 +25,6 @@ from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
 from rclpy.client import Client
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
-from rclpy.task import Future
 from simulation_interfaces.msg import EntityState, Result, SimulationState
 from simulation_interfaces.srv import (
     DeleteEntity,
@@ -179,23 +178,16 @@ class ServiceClients:
 async def call_client(node: Node, client: Client, name: str, request: Any, timeout: float) -> Any:
     """As :meth:`ServiceClients.call`, by a client of the node for the service."""
     loop = asyncio.get_running_loop()
-    answered = loop.create_future()
+    answered = asyncio.Event()
     try:
         await wait_until_ready(ServiceReadiness(node, client), f'service {name}')
         pending = client.call_async(request)
     except InvalidHandle:  # the ROS thread has destroyed it in the meantime
         raise ViewerError(f'service {name} has gone; is its node running?') from None
 
-    def answer() -> None:
-        if not answered.done():
-            answered.set_result(None)
-
-    def settle(_: Future) -> None:
-        loop.call_soon_threadsafe(answer)
-
-    pending.add_done_callback(settle)
+    pending.add_done_callback(lambda _: loop.call_soon_threadsafe(answered.set))
     try:
-        await asyncio.wait_for(answered, timeout)
+        await asyncio.wait_for(answered.wait(), timeout)
     except TimeoutError:
         raise UnansweredError(f'service {name} has not answered within {timeout:g} s') from None
     finally:
