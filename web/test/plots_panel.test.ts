@@ -142,6 +142,19 @@ test('states are said by their names, and forgotten where a node numbers its tex
   assert.equal(recorder.series(undefined, field)?.first, 1);
   feed.say(SPEED, [4], [0], 0, { 0: 'lost' });
   assert.equal(recorder.series(undefined, field)?.first, 4);
+  panel.toggle(field);
+  const other = { topic: '/other', path: 'state' };
+  const difference = { ...field, steps: [{ by: 'minus', other }] } as const;
+  panel.toggle(difference);
+  for (const time of [5, 6, 7]) {
+    feed.say(SPEED, [time], [1], 0, names);
+    feed.say('/other:state', [time], [0], 0, { 0: 'false', 1: 'true' });
+  }
+  assert.equal(recorder.series(undefined, difference)?.first, 5, 'of two states each has its own names');
+  feed.followers.get('/other:state')?.fail('nobody publishes it');
+  feed.say(SPEED, [8], [1], 0, names);
+  panel.repaint();
+  assert.equal(texts(panel, '.chart:last-child td')[0], 'nobody publishes it');
 });
 
 test('a chart is drawn over its first field on demand', async () => {

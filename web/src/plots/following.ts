@@ -20,7 +20,7 @@ export interface FieldFeed {
 
 interface Followed {
   end: () => void;
-  fault: string | null;
+  faults: Map<string, string>; // why there are none, by what is followed for it
   names: Names | undefined;
 }
 
@@ -57,20 +57,23 @@ export class Following {
 
   /** Why there are no numbers of a field, in one line; null: none was said. */
   faultOf(field: Field): string | null {
-    return this.followed.get(nameOf(field))?.fault ?? null;
+    const [fault = null] = this.followed.get(nameOf(field))?.faults.values() ?? [];
+    return fault;
   }
 
   private begin(field: Field): void {
     const ends: (() => void)[] = [];
-    const followed: Followed = { end: () => ends.forEach((end) => end()), fault: null, names: undefined };
+    const followed: Followed = { end: () => ends.forEach((end) => end()), faults: new Map(), names: undefined };
     const follow = ({ topic, path }: Field, take: (time: number, value: number) => void): void => {
+      const name = nameOf({ topic, path });
+      let before: Names = {};
       const end = this.feed.plot(topic, path, {
         take: ({ stamps, values, lost, names }) => {
-          followed.fault = null;
-          if (Object.entries(followed.names ?? {}).some(([value, name]) => name !== (names[value] ?? name))) {
+          followed.faults.delete(name);
+          if (Object.entries(before).some(([value, was]) => was !== (names[value] ?? was))) {
             this.recorder.forget(field); // another node has come, and numbers its texts otherwise
           }
-          followed.names = names;
+          followed.names = before = names;
           const [first] = stamps;
           if (lost > 0 && first !== undefined) {
             take(first, Number.NaN); // no line over what never came
@@ -80,7 +83,7 @@ export class Following {
           }
         },
         fail: (reason) => {
-          followed.fault = reason;
+          followed.faults.set(name, reason);
         },
       });
       ends.push(end);
