@@ -32,12 +32,11 @@ from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, QoSReliabilityPolicy
-from rclpy.time import Time
 from robot_localization.srv import FromLL, SetDatum, SetUTMZone, ToLL
 from sensor_msgs.msg import Imu, NavSatFix, NavSatStatus
 
 from amr_description.clock import NANOSECONDS
-from amr_description.errors import ParameterError, TransformException
+from amr_description.errors import ParameterError
 from amr_description.model.frames import (
     matrix_from_quaternion,
     Quaternion,
@@ -56,8 +55,9 @@ from amr_description.navigation.navsat import (
     without_mounting,
     world_from_grid,
 )
+from amr_description.navigation.ros.transform_queue import transform_at
 from amr_description.parameters import parameter
-from amr_description.ros.messages import fill_pose, nanoseconds, transform_of, transform_of_message
+from amr_description.ros.messages import fill_pose, nanoseconds, transform_of
 from amr_description.ros.node_help import print_help
 from amr_description.ros.parameters import declare
 from amr_description.ros.runtime import run
@@ -396,16 +396,8 @@ class NavsatTransformNode(Node):
         """Return a transform at a time, else the latest; None: there is none."""
         if target == source:
             return Transform()
-        timeout = Duration(nanoseconds=round(self._settings.transform_timeout * NANOSECONDS))
-        for each in (time, 0) if time else (0,):
-            try:
-                found = self._buffer.lookup_transform(
-                    target, source, Time(nanoseconds=each), timeout
-                )
-            except TransformException:
-                continue
-            return transform_of_message(found.transform)
-        return None
+        timeout = round(self._settings.transform_timeout * NANOSECONDS)
+        return transform_at(self._buffer, target, source, time, timeout)
 
     def _complain(self, text: str) -> None:
         self.get_logger().error(text, throttle_duration_sec=_QUIET)

@@ -30,13 +30,12 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, QoSReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
-from rclpy.time import ClockType, Time
+from rclpy.time import ClockType
 from rclpy.timer import Timer
 from robot_localization.srv import SetPose, ToggleFilterProcessing
 from std_srvs.srv import Empty
 
 from amr_description.clock import NANOSECONDS, TimeJumpFilter
-from amr_description.errors import TransformException
 from amr_description.model.frames import Transform
 from amr_description.navigation.ekf import ControlInput, Measurement, Outcome
 from amr_description.navigation.ekf_diagnostics import FilterDiagnostics, RateDiagnostics
@@ -55,8 +54,9 @@ from amr_description.navigation.ros.ekf_outputs import (
     Outputs,
 )
 from amr_description.navigation.ros.messages import is_place
+from amr_description.navigation.ros.transform_queue import transform_at
 from amr_description.parameters import Spec
-from amr_description.ros.messages import nanoseconds, transform_of_message, vector_of
+from amr_description.ros.messages import nanoseconds, vector_of
 from amr_description.ros.parameters import PUBLISHER_POLICIES
 from amr_description.ros.rclpy_internals import parameter_overrides, set_parameter_override
 from amr_description.tf2_ros.buffer import Buffer
@@ -379,16 +379,8 @@ class EkfNode(Node):
 
     def _lookup(self, target: str, source: str, time: int) -> Transform | None:
         """Return a transform at a time, else the latest; None: there is none."""
-        timeout = Duration(nanoseconds=self._settings.nanoseconds('transform_timeout'))
-        for each in (time, 0) if time else (0,):
-            try:
-                found = self._buffer.lookup_transform(
-                    target, source, Time(nanoseconds=each), timeout
-                )
-            except TransformException:
-                continue
-            return transform_of_message(found.transform)
-        return None
+        timeout = self._settings.nanoseconds('transform_timeout')
+        return transform_at(self._buffer, target, source, time, timeout)
 
     def _complain(self, key: str, text: str) -> None:
         """Put it into the diagnostics; a transform that goes on missing into the log, too."""

@@ -1,7 +1,8 @@
 # Copyright 2026 The amr_description authors
 # SPDX-License-Identifier: Apache-2.0
 """
-Messages that wait until a transform at their stamp is known, as in ``tf2_ros::MessageFilter``.
+Messages that wait until a transform at their stamp is known, as in ``tf2_ros::MessageFilter``; and
+the latest transform in place of one that is not known.
 
 What a robot measures at an instant is often there before the odometry of that instant. It is not
 taken with an older transform, which would be wrong while the robot drives, nor lost.
@@ -9,15 +10,32 @@ taken with an older transform, which would be wrong while the robot drives, nor 
 
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Generic, TypeVar
 
 from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
 from rclpy.task import Future
 from rclpy.time import Time
 
+from amr_description.errors import TransformException
+from amr_description.model.frames import Transform
+from amr_description.ros.messages import transform_of_message
 from amr_description.tf2_ros.buffer import Buffer
 
 Item = TypeVar('Item')
+
+
+def transform_at(
+    buffer: Buffer, target: str, source: str, time: int, timeout: int
+) -> Transform | None:
+    """Return a transform at a time (ns) that is one, else the latest; None: there is none."""
+    wait = Duration(nanoseconds=timeout)
+    for each in (time, 0) if time > 0 else (0,):
+        with suppress(TransformException):
+            found = buffer.lookup_transform(target, source, Time(nanoseconds=each), wait)
+            return transform_of_message(found.transform)
+    return None
 
 
 class TransformQueue(Generic[Item]):

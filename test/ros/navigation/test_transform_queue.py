@@ -5,7 +5,7 @@
 import pytest
 
 from amr_description.model.frames import Transform
-from amr_description.navigation.ros.transform_queue import TransformQueue
+from amr_description.navigation.ros.transform_queue import transform_at, TransformQueue
 from amr_description.tf2_ros.buffer import Buffer, transform_message
 from amr_description.tf2_ros.buffer_core import BufferCore
 from amr_description.tf2_ros.time_cache import StampedTransform
@@ -77,3 +77,12 @@ def test_an_item_of_before_the_first_transform_waits_no_longer_than_that(bench, 
     assert asked == []
     bench.know(4)  # an old transform makes it known, but it would be out of order
     assert bench.handled == [(10, 10.0)]
+
+
+def test_the_latest_is_in_place_of_one_that_is_not_known(bench):
+    """Stamps of others may be of before all time."""
+    found = [transform_at(bench.buffer, 'odom', 'base', 15, 0)]
+    bench.know(10, 20)
+    for time in (15, 30, 0, -1):
+        found.append(transform_at(bench.buffer, 'odom', 'base', time, 0))
+    assert [each and each.translation[0] for each in found] == [None, 15.0, 20.0, 20.0, 20.0]
