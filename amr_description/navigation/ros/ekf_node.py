@@ -315,6 +315,7 @@ class EkfNode(Node):
             self._estimator.integrate(now)
         else:
             self._estimator.clear()
+            self._estimator.filter.time = now  # else all of it would be predicted afterwards
         if self._estimator.filter.is_initialized:
             self._publish()
         elapsed = (self.get_clock().now().nanoseconds - now) / NANOSECONDS
