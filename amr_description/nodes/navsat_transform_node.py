@@ -356,6 +356,10 @@ class NavsatTransformNode(Node):
         """Take another datum."""
         place, turn = request.geo_pose.position, request.geo_pose.orientation
         point = GeoPoint(place.latitude, place.longitude, place.altitude)
+        given = (point.latitude, point.longitude, point.altitude, turn.x, turn.y, turn.z, turn.w)
+        if not all(map(math.isfinite, given)):
+            self._complain(f'datum: what is no number, as in {point}, is no datum: it stays')
+            return response
         self._manual = Datum(point, (turn.x, turn.y, turn.z, turn.w))
         self._grid = None
         return response

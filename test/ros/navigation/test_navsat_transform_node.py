@@ -167,6 +167,10 @@ def test_a_datum_of_the_parameters_needs_no_imu():
         place = Point(latitude=48.0, longitude=11.0)
         talk.ask(SetDatum, 'datum', geo_pose=GeoPose(position=place, orientation=north))
         talk.until(is_odometry_at(2.0, -5.0), odometry(), fix(5.0, 2.0))
+        nowhere = GeoPose(position=Point(longitude=math.nan), orientation=north)
+        talk.ask(SetDatum, 'datum', geo_pose=nowhere)
+        talk.heard[Odometry].clear()
+        talk.until(is_odometry_at(2.0, -5.0), odometry(), fix(5.0, 2.0))
 
 
 def test_a_zone_that_is_kept():
