@@ -419,7 +419,8 @@ class Translation:
         words = action.words(context)
         if not words or not words[0]:
             raise refusal('ExecuteProcess(cmd=[]): it takes the words of a command', '')
-        if self._is_gazebo(words if not shell else shlex.split(' '.join(words)), action):
+        split = shlex.split(' '.join(words), comments=True) if shell else words
+        if self._is_gazebo(split, action):
             return
         label = action.label(context) or os.path.basename(words[0].split()[0])
         command = ['/bin/sh', '-c', ' '.join(words)] if shell else words

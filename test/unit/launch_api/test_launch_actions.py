@@ -456,7 +456,7 @@ def test_commands(launch, toys):
     stack = launch(
         """
         ExecuteProcess(cmd=['sh', '-c', 'exit 3'], cwd='/tmp', respawn=True, respawn_delay=2.0),
-        ExecuteProcess(cmd=[['echo ', LaunchConfiguration('x', default='1'), ' | cat']],
+        ExecuteProcess(cmd=[['echo ', LaunchConfiguration('x', default='1'), " # it's"]],
             shell=True, prefix='nice -n 5'),
         ExecuteProcess(cmd=['gz', 'sim', '-r', '-s', 'walls.sdf']),
         ExecuteProcess(cmd=['toys/a'], cwd=FOLDER),
@@ -465,7 +465,7 @@ def test_commands(launch, toys):
     )
     assert [line for *_, line in commands(stack)] == [
         "sh -c 'exit 3'",
-        "nice -n 5 sh -c 'echo 1 | cat'",
+        """nice -n 5 sh -c 'echo 1 # it'"'"'s\'""",
         'mujoco_sim',
         'toys/a',
     ]
