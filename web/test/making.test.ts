@@ -33,6 +33,7 @@ test('a derivative is per second, and none over what is not known or a time that
   assert.deepEqual(made('/a:x~d', [[1, 5], [1.5, 6], [1.5, 9], [3.5, 2]]), [[1.5, 2], [3.5, -2]]);
   assert.deepEqual(made('/a:x~d', [[1, 5], [2, NaN], [3, 6], [4, 8]]), [[2, NaN], [3, NaN], [4, 2]]);
   assert.deepEqual(made('/a:x~d', [[10, 5], [1, 1], [2, 3]]), [[2, 2]]);
+  assert.deepEqual(made('/a:x~d', [[1, 5], [2, NaN], [2, 6], [3, 8]]), [[2, NaN], [3, 2]], 'messages were lost before 2 s');
 });
 
 test('a low pass takes its time for a step, whatever the rate', () => {

@@ -40,7 +40,8 @@ function derivative(): Making {
   return (time, value) => {
     const [passed, more] = [time - at, value - was];
     if (passed === 0) {
-      return []; // of two numbers of one time the first counts
+      was = Number.isNaN(was) ? value : was; // of two numbers of one time the first counts
+      return [];
     }
     const isFirst = Number.isNaN(at);
     [at, was] = [time, value];
