@@ -132,7 +132,8 @@ class FormCalls:
                 lambda done: self._on_result(goal, done),
             )
         except ViewerError:
-            asyncio.get_running_loop().call_later(_LATE, self._destroy, goal.client)
+            delay = _LATE if goal.handle is None else 0.0  # else it was refused
+            asyncio.get_running_loop().call_later(delay, self._destroy, goal.client)
             raise
         finally:
             self._sending.discard(goal)

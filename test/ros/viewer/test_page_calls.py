@@ -209,8 +209,10 @@ def test_no_goal_is_sent_to_who_is_stopped_nor_when_its_page_has_gone(host):
         with pytest.raises(AmrError, match='STOP holds /arm/count'):
             await page.send()
         page.is_held = host.accepts = False
+        kept = len([*host.viewer.waitables])
         with pytest.raises(AmrError, match='/arm/count refuses the goal; its log says why'):
             await page.send()
+        await come(lambda: len([*host.viewer.waitables]) == kept)
 
     asyncio.run(use())
     assert host.handles == []
