@@ -12,7 +12,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from support.control_fakes import WHEELS
+from support.control_fakes import MS, WHEELS
 from support.manager_host import ros_in_this_process, running_host
 
 from amr_description.control.ros.node_parameters import NodeParameters
@@ -79,7 +79,7 @@ def states(message):
 
 def test_activity_is_told_to_whoever_comes_late_and_at_every_change(host):
     hardware = {'hardware': (3, 'active')}
-    await_(host, lambda: host.loop_thread.loop.time > 0)
+    await_(host, lambda: host.loop_thread.loop.time > 100 * MS)  # what is said then has a stamp
     assert host.client.load('joint_state_broadcaster')
     with listening(host, ControllerManagerActivity, '/controller_manager/activity', LATCHED) as h:
         first = latest(host, h, lambda _: True)
