@@ -79,6 +79,21 @@ test('driving while time stands still is said', () => {
   assert.equal(whoDrives(app.store).text, 'You drive, but time stands still');
 });
 
+test('a controller that is not active is said in place of who drives by it', () => {
+  const app = page('/');
+  const kind = 'diff_drive_controller/DiffDriveController';
+  const drive = { name: 'diff_drive_controller', kind, state: 'inactive', claims: [], moves: [] };
+  const command = { topic: '/diff_drive_controller/cmd_vel', message: 'geometry_msgs/msg/TwistStamped' };
+  app.say(graphOf([robotInfo({ command })]));
+  app.say({ type: 'controllers', robot: '/', controllers: [drive], hardware: [] });
+  assert.deepEqual(whoDrives(app.store), { tone: 'warning', text: 'diff_drive_controller is inactive' });
+  commanded(app, 10, '/planner');
+  assert.equal(whoDrives(app.store).text, '/planner commands, 10 Hz');
+  app.say({ type: 'driver', robot: '/', client: 'page 1', stopped: null });
+  const text = 'You drive, but diff_drive_controller is inactive';
+  assert.deepEqual(whoDrives(app.store), { tone: 'warning', text });
+});
+
 test('a stop says whether it holds, who pressed it and who commands all the same', () => {
   const app = page('/');
   assert.equal(stopWords(app.store), null);

@@ -21,19 +21,25 @@ export function whoDrives(store: Store): Word {
     return { tone: 'error', text: store.silence };
   }
   const isPaused = store.simulation !== null && store.simulation.state !== 'playing';
+  const deaf = store.deafController;
   if (driver !== null) {
     const who = driver.me ? 'You drive' : `${driver.name} drives`;
-    const tone = isPaused || !driver.me ? 'warning' : 'good';
-    return { tone, text: isPaused ? `${who}, but time stands still` : who };
+    const but = isPaused ? 'time stands still' : deaf === null ? '' : `${deaf.name} is ${deaf.state}`;
+    return but === ''
+      ? { tone: driver.me ? 'good' : 'warning', text: who }
+      : { tone: 'warning', text: `${who}, but ${but}` };
   }
   const others = robot === null ? null : store.commanders(robot.id);
   if (others !== null && others.rate > 0) {
-    const isHeld = store.stops.robots.some((each) => each.robot === robot?.id);
+    const isHeld = deaf !== null || store.stops.robots.some((each) => each.robot === robot?.id);
     const verb = `${isHeld ? 'command' : 'drive'}${others.nodes.length > 1 ? '' : 's'}`;
     return { tone: 'warning', text: `${named(others)} ${verb}, ${others.rate} Hz` };
   }
   if (isPaused) {
     return { tone: 'warning', text: 'Time stands still' };
+  }
+  if (deaf !== null) {
+    return { tone: 'warning', text: `${deaf.name} is ${deaf.state}` };
   }
   return { tone: 'calm', text: robot === null ? 'No robot' : 'Nobody drives' };
 }

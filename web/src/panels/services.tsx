@@ -79,6 +79,14 @@ function ServiceList({ app, goals }: PanelProps & { goals: Goals }) {
   );
 }
 
+/** What of a simulator takes robots out of the world, though its name does not say so. */
+const REMOVES: Record<string, string> = {
+  'simulation_interfaces/srv/LoadWorld': 'The robots of the present world are removed.',
+  'simulation_interfaces/srv/ResetSimulation':
+    'By default robots that were spawned are removed, too; scope 3 resets time and state alone.',
+  'simulation_interfaces/srv/SetSimulationState': 'STATE_STOPPED removes all robots.',
+};
+
 interface CallProps {
   app: App;
   service: CallInfo;
@@ -120,6 +128,7 @@ function Call({ app, service: { name, kind, is_action: isAction }, goals }: Call
   return (
     <div class="topic-body publish">
       {fields.value?.length === 0 && <p class="fine">It asks for nothing.</p>}
+      {kind in REMOVES && <p class="fine">{REMOVES[kind]}</p>}
       <Inputs fields={fields.value ?? []} path="" typed={typed.value} onType={(all) => (typed.value = all)} />
       <div class="tools wrap">
         <Button

@@ -174,7 +174,7 @@ export class Chart {
     const bounds = button('', () => (form.hidden = !form.hidden), {
       icon: 'range',
       kind: 'quiet',
-      title: 'Bounds, derivative, filter, difference',
+      title: this.spec.kind === null ? 'Bounds, derivative, filter, difference' : 'Bounds',
     });
     return h(
       'div',
