@@ -43,6 +43,8 @@ pytest_plugins = ['support.open_path', 'support.stderr_file']
 preloaded.start_for(program)  # the simulators of tests that are written as users write theirs
 LONGEST_TEST = 300.0
 """s; the longest takes 15 s by itself, and a minute on a busy machine."""
+LONGEST_ID = 80
+"""Characters that are shown of a parameter."""
 KEPT = {}  # what has to last as long as the run
 
 # Everywhere the same numbers, no deadline on a busy machine, and half as many examples as
@@ -187,6 +189,15 @@ def suitable_workers(config):
     paths = [(config.invocation_params.dir / arg.split('::')[0]) for arg in config.args]
     is_waiting = not all(path.resolve().is_relative_to(UNIT) for path in paths)
     return len(os.sched_getaffinity(0)) * (5 if is_waiting else 2) // 2
+
+
+def pytest_make_parametrize_id(val):
+    """Cut the ids of long texts: one of 40 MB is in each message and report of a run."""
+    if isinstance(val, str | bytes) and len(val) > LONGEST_ID:
+        begin = val[:LONGEST_ID]
+        text = begin.decode('latin-1') if isinstance(begin, bytes) else begin
+        return f'{text.encode("unicode_escape").decode()}... {len(val)} in all'
+    return None
 
 
 @pytest.hookimpl(tryfirst=True)  # pytest then brings together what shares a costly parameter

@@ -17,11 +17,17 @@ SMALL = {'width': 64, 'height': 48}
 
 
 @pytest.fixture(scope='module')
-def sim():
+def shared():
     with Simulation(
         URDF, robots={'a': Transform(), 'b': Transform((4.0, 0.0, 0.0))}
     ) as simulation:
         yield simulation
+
+
+@pytest.fixture
+def sim(shared):
+    shared.reset()
+    return shared
 
 
 def blue(picture):
@@ -50,7 +56,6 @@ def test_who_stands_behind_the_robots_sees_what_is_left_to_the_left(sim):
 
 
 def test_it_is_of_the_present_instant_and_follows_the_robots(sim):
-    sim.reset()
     before = sim.picture(**SMALL)
     fixed = sim.picture((-3.0, 0.0, 1.0), (0.0, 0.0, 0.0), **SMALL)
     sim.drive_all({'a': (0.5, 0.0), 'b': (0.5, 0.0)}, seconds=2, stop=False)
