@@ -69,6 +69,7 @@ BALL = """<robot name="ball"><link name="ball">
 @pytest.fixture(scope='module')
 def process():
     with simulator('paused:=true') as asked:
+        asked.wait(lambda: asked.clock)
         yield asked
 
 
