@@ -52,7 +52,7 @@ BUDGETS = {
     'class names used twice': 53,
     'modules excused from a check of types': 12,
     'modules with many public names': 32,
-    'code lines of helpers in test files': 28_288,
+    'code lines of helpers in test files': 28_290,
 }
 
 BASE = {

@@ -27,7 +27,8 @@ def site():
         state = site.ask(GetState, 'bt_navigator/get_state').current_state
         assert (state.id, state.label) == (2, 'inactive')  # it has no map yet
         site.maps.publish(grid_message(ROOM))
-        site.until(lambda: site.ask(GetState, 'bt_navigator/get_state').current_state.id == 3)  # it knows where it is
+        # It is active when it knows where it is.
+        site.until(lambda: site.ask(GetState, 'bt_navigator/get_state').current_state.id == 3)
         yield site
 
 
