@@ -213,6 +213,7 @@ def test_a_node_whose_callbacks_raise_serves_on(client, capfd, executor, is_late
         assert not refused.success
         assert refused.message.startswith('ValueError: what nobody thought of (test_firewall.py:')
         assert ask(client, Trigger, 'works').success
+        until(client, guest.timer.is_canceled)
     said = capfd.readouterr().err
     for topic in others:
         assert f'the callback of /{topic} has raised ValueError: hostile 1 (test_fire' in said
