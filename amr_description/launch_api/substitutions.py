@@ -70,8 +70,8 @@ class TextSubstitution(Substitution):
 def is_a_substitution(value: object) -> bool:
     """Return whether a value is a substitution, or a list with one."""
     if isinstance(value, str | bytes) or not isinstance(value, Iterable):
-        return isinstance(value, Substitution)
-    return any(isinstance(each, Substitution) for each in value)
+        return _performs(value)
+    return any(map(_performs, value))
 
 
 def normalize_to_list_of_substitutions(subst: SomeSubstitutions) -> list[Substitution]:

@@ -13,6 +13,7 @@ import pytest
 from amr_description.errors import BringupError
 from amr_description.launch_api.launch_file import launch_by_the_original, LaunchFile
 from amr_description.launch_api.modules import is_installed, provide, understood
+from amr_description.launch_api.substitutions import is_a_substitution
 
 BEGIN = 'def generate_launch_description():\n    '
 
@@ -248,5 +249,6 @@ def test_beside_the_original_rewritten_files_are_substitutions_of_it(tmp_path, m
 
     made = RewrittenYaml([Configuration()], {'x': '2'}, convert_types=True)
     assert isinstance(made, Original)
+    assert is_a_substitution(Configuration()) and is_a_substitution([Configuration()])
     context = SimpleNamespace(launch_configurations={'file': str(tmp_path / 'p.yaml')})
     assert 'x: 2' in Path(made.perform(context)).read_text()
